@@ -168,12 +168,12 @@ int main(int argc, char** argv) {
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass", "radius", "shape-factor"});
+    for (const UncertainNumber& number : uncertain_numbers) task.body.*number.sigma = 0;
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
     const auto read = [&] {
-      return read_law(tool, law, {{"slope", "", &task.body.slope}},
-                      is_chosen("sigma_D") ? Uncertainties::needed : Uncertainties::ignored);
+      return read_law(tool, law, {{"slope", "", &task.body.slope}}, is_chosen("sigma_D"));
     };
     if (task.uses_law) task.law = read();
     Reader& in = tool.read({"t", "v", "D"});

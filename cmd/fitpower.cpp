@@ -37,7 +37,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
     options.fit_slope = text == "fit";
     if (!options.fit_slope && !parse_estimate(text, slope))
       fail("'{}' is no number, and not `fit`", shown(text));
-    bodies.body.slope = slope.value, bodies.uncertainty.slope = slope.sigma;
+    bodies.body.slope = slope.value, bodies.body.sigma_slope = slope.sigma;
   });
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
   tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
                "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
   tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
-  tool.body(bodies.body, {&Body::g}, &bodies.uncertainty);
+  tool.body(bodies.body, {&Body::g});
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,

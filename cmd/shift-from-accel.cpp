@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
             "Append the forward shift D of the contact force, from the acceleration.");
   ShiftOf by{};
   const Body& body = by.body;
-  tool.body(by.body, {&Body::R, &Body::K, &Body::g, &Body::slope}, &by.given);
+  tool.body(by.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
   tool.geometry(by.geometry);
   tool.scene();
   tool.input();

@@ -54,8 +54,7 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
   tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11}", "method", "rtol", "max|dv|/v0",
                        "dt*/t*", "evaluations", "ns/sample"));
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
-    const Measured m =
-        measure([&] { return start(scene, method, tolerance); }, right, std::abs(scene.v0));
+    const Measured m = measure([&] { return start(scene, method, tolerance); }, right);
     const std::string text = fmt::format(
         "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
     if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
@@ -74,6 +73,7 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
   Scene roll{};
+  double way = 1;  ///< -1 for v0 < 0: `roll` is as a mirror shows it, all signs turned
   double t0 = 0;
   LawOptions law{};
   Method method{};
@@ -90,6 +90,7 @@ struct Task {
                          {"t0", "s", &t0}})
                    .law;
     if (std::isnan(roll.v0)) tool.need({"v0"});
+    if (roll.v0 < 0) way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way;
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
   std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
@@ -108,8 +109,8 @@ void check_options(const Tool& tool, const Task& task) {
     tool.refuse({"rtol"}, "goes with a solver: there is no tolerance here");
   if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
     fail("--damping goes with --memory");
-  if (tool.on_command_line("sensor") && task.roll.v0 < 0)
-    fail("v0 = {}: --sensor looks after a body that rolls away from it", task.roll.v0);
+  if (tool.on_command_line("sensor") && task.way < 0)
+    fail("v0 = {}: --sensor looks after a body that rolls away from it", -task.roll.v0);
 }
 
 /// The time where the rows end: `until`, or the stop if that is not given.
@@ -163,14 +164,13 @@ void add_options(Tool& tool, SonarOptions& sonar) {
 class RowWriter {
  public:
   RowWriter(Output& out, const Task& task, const std::string& columns)
-      : out_(out), task_(task), row_(chosen(columns, quantities)),
-        only_t_(row_.size() == 1 && row_[0].name == "t"), numbers_(row_.size()) {}
+      : out_(out), task_(task), row_(chosen(columns, quantities)), numbers_(row_.size()) {}
 
   void write_header() const {
     const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
     out_.text("## simulate " + words_of(law) +
-              fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, v0) +
-              (body.slope == 0 ? "" : fmt::format(" slope {}", body.slope)) +
+              fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, task_.way * v0) +
+              (body.slope == 0 ? "" : fmt::format(" slope {}", task_.way * body.slope)) +
               (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)));
     out_.end_line();
     std::vector<Column> header;
@@ -179,9 +179,10 @@ class RowWriter {
   }
 
   void write(double t, Motion& motion) {
-    if (!only_t_) motion.seek(t - task_.t0);
+    motion.seek(t - task_.t0);
     // Computed before any is written: a tenth faster than one by one.
-    for (std::size_t i = 0; i < row_.size(); ++i) numbers_[i] = row_[i].of(t, motion);
+    for (std::size_t i = 0; i < row_.size(); ++i)
+      numbers_[i] = 0 + task_.way * row_[i].of(task_.way * t, motion);
     for (const double number : numbers_) out_.cell(number);
     out_.end_line();
   }
@@ -224,7 +225,6 @@ class RowWriter {
   Output& out_;
   const Task& task_;
   std::vector<Quantity<double (*)(double t, Motion&)>> row_;
-  bool only_t_;
   std::vector<double> numbers_;
 };
 

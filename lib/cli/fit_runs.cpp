@@ -111,9 +111,8 @@ void Bodies::give_to(std::vector<FitRun>& runs) const {
     const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size()),
                    R = of_run(radii, "radius", i, runs.size());
     runs[i].body = body;
-    runs[i].body.K = K.value, runs[i].body.R = R.value;
-    runs[i].given = uncertainty;
-    runs[i].given.K = K.sigma, runs[i].given.R = R.sigma;
+    runs[i].body.K = K.value, runs[i].body.sigma_K = K.sigma;
+    runs[i].body.R = R.value, runs[i].body.sigma_R = R.sigma;
   }
 }
 
@@ -142,7 +141,7 @@ void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry g
       Body given = run.body;
       if (!tool.given("gravity")) given.g = not_given;
       if (!tool.given("slope")) given.slope = not_given;
-      others = other_body(run.shift_of, given, run.given);
+      others = other_body(run.shift_of, given);
       if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
         add_item(others, "A = 1 (here --exact)");
     } else if (!unused.empty())

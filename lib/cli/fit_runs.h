@@ -27,7 +27,6 @@ bool take_pulses(Tool&, std::vector<FitRun>&);
 /// so one radius.
 struct Bodies {
   Body body = {};  ///< but for K and R
-  BodyUncertainty uncertainty = {};
   std::vector<Estimate> shape_factors = {}, radii = {};
 
   void give_to(std::vector<FitRun>&) const;

@@ -24,7 +24,7 @@ namespace {
 
 /// `[exact] K 0.5 R 0.04 g 9.81 [slope 0.001]`, perhaps with uncertainties.
 std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
-  ShiftOf of{.body = {}, .geometry = Geometry::approximate, .given = {}};
+  ShiftOf of{};
   if (!words.empty() && words[0] == "exact") {
     of.geometry = Geometry::exact;
     words = words.subspan(1);
@@ -35,7 +35,7 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
     Estimate estimate;
     if (words[i] != number.name || !parse_estimate(words[i + 1], estimate)) return {};
     of.body.*number.value = estimate.value;
-    of.given.*number.sigma = estimate.sigma;
+    of.body.*number.sigma = estimate.sigma;
   }
   if (!(of.body.K >= 0 && of.body.R > 0 && of.body.g > 0)) return {};
   return of;
@@ -150,7 +150,7 @@ std::string line_of(const ShiftOf& of) {
   std::string line = "shift-from-accel";
   if (of.geometry == Geometry::exact) line += " exact";
   for (const UncertainNumber& number : uncertain_numbers) {
-    const Estimate x{of.body.*number.value, of.given.*number.sigma};
+    const Estimate x{of.body.*number.value, of.body.*number.sigma};
     if (number.value != &Body::slope || x.value != 0 || x.sigma != 0)
       line += fmt::format(" {} {}", number.name, to_text(x));
   }
@@ -175,13 +175,12 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
   return history;
 }
 
-std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body,
-                       const BodyUncertainty& given) {
+std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body) {
   std::string others;
   if (!shift_of) return others;
   for (const UncertainNumber& number : uncertain_numbers) {
-    const Estimate then{shift_of->body.*number.value, shift_of->given.*number.sigma},
-        now{body.*number.value, given.*number.sigma};
+    const Estimate then{shift_of->body.*number.value, shift_of->body.*number.sigma},
+        now{body.*number.value, body.*number.sigma};
     if (std::isnan(now.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
       continue;

@@ -37,7 +37,7 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// "K 0.6 (here 0.5)": the numbers that D was computed with, where those of the body are others, or
 /// have an uncertainty that D's do not have; empty if there are none. A number of the body that is
 /// NaN is not known.
-std::string other_body(const std::optional<ShiftOf>&, const Body&, const BodyUncertainty& = {});
+std::string other_body(const std::optional<ShiftOf>&, const Body&);
 
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);

@@ -29,7 +29,7 @@ const LawForm* law_of_columns(const Reader& in) {
 
 /// The row of fitpower in a file.
 LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
-                   std::vector<RowNumber> numbers, Uncertainties uncertainties) {
+                   std::vector<RowNumber> numbers, bool with_errors) {
   const bool power = &form == &laws().front();
   if (!power)
     tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
@@ -41,10 +41,9 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
     columns.push_back(in.need_as_is(number.name, number.unit));
   for (const Column& c : columns_of(form)) {
     coefficients.push_back(in.need_as_is(c.name, c.unit));
-    if (uncertainties == Uncertainties::needed)
-      sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+    if (with_errors) sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
   }
-  if (uncertainties == Uncertainties::needed)
+  if (with_errors)
     for (const std::string& name : correlations_of(form))
       correlations.push_back(in.need_as_is(name));
   if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
@@ -125,7 +124,7 @@ void add_options(Tool& tool, LawOptions& law) {
 }
 
 LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowNumber>& numbers,
-                   Uncertainties uncertainties) {
+                   bool with_errors) {
   const std::string& file = options.file;
   if (file.empty()) {
     tool.need({"coefficient", "exponent"});
@@ -133,11 +132,11 @@ LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowN
   }
   Reader& in = tool.read_file(file, {"v", "D"});
   if (const LawForm* form = law_of_columns(in))
-    return read_row(tool, in, *form, options.power, numbers, uncertainties);
+    return read_row(tool, in, *form, options.power, numbers, with_errors);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
-  if (uncertainties == Uncertainties::needed)
+  if (with_errors)
     fail("{}: a table of v and D has no uncertainties: give a row of fitpower", shown(file));
   const auto v = in.need("v"), D = in.need("D");
   std::vector<double> speeds, shifts;

@@ -61,7 +61,9 @@ class Tool {
 
   // Options of one tool. `names` in the notation of CLI11: "-w,--width". Each option may be given
   // once. Its value must be a number in the syntax of rolling-columns(5) and within the domain.
-  void flag(const std::string& names, bool& value, const std::string& help);
+  void flag(const std::string& names, bool& value, const std::string& help) {
+    choice<bool>(names, value, {{"false", false}, {"true", true}}, help, Values::none);
+  }
   /// With `sigma` the number may have an uncertainty (0.5+-0.005).
   void number(const std::string& names, double& value, const Domain&, const std::string& help,
               double* sigma = nullptr);
@@ -77,20 +79,22 @@ class Tool {
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
+  enum class Values { none, one, many };
+  /// Without a value the option chooses `true`.
   template <typename T>
   void choice(const std::string& names, T& value, const std::map<std::string, T>& choices,
-              const std::string& help) {
+              const std::string& help, Values values = Values::one) {
     std::string all;
-    for (const auto& choice : choices) add_item(all, choice.first, ",");
-    add(names, '{' + all + '}', help, [&value, choices, all](const std::string& text) {
+    for (const auto& choice : choices) add_item(all, choice.first);
+    const auto set = [&value, choices, all](const std::string& text) {
       const auto found = choices.find(text);
-      if (found == choices.end())
-        fail("'{}' is not one of {}", shown(text), replace_all(all, {{",", ", "}}));
+      if (found == choices.end()) fail("'{}' is not one of {}", shown(text), all);
       value = found->second;
-    });
+    };
+    const std::string type = '{' + replace_all(all, {{", ", ","}}) + '}';
+    add(names, values == Values::none ? "" : type, help, set, values);
   }
 
-  enum class Values { none, one, many };
   /// An option of any kind. One with many values may be repeated, and `set` receives one after the
   /// other; without a value it receives `true`. A name without hyphens is that of the words that
   /// are not options: the input files. Errors of `set` need not name the option.
@@ -100,11 +104,15 @@ class Tool {
   // Options that tools share.
   /// -m -R -K -g --slope, as far as these numbers are named. Before they are read, Body has
   /// not_given, 9.81 for g, and 0 for the slope. R, K, g and the slope may have an uncertainty
-  /// (0.5+-0.005), which is stored in `uncertainty`, or ignored if that is null.
-  void body(Body&, std::initializer_list<double Body::*>, BodyUncertainty* uncertainty = nullptr);
-  void geometry(Geometry&);  ///< --exact
-  void scene();              ///< --scene, whose keys are listed in tool_options.cpp
-  void input();              ///< operands, --use --run --strict
+  /// (0.5+-0.005).
+  void body(Body&, std::initializer_list<double Body::*>);
+  void geometry(Geometry& geometry) {
+    choice<Geometry>("--exact", geometry,
+                     {{"false", Geometry::approximate}, {"true", Geometry::exact}},
+                     "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)", Values::none);
+  }
+  void scene();  ///< --scene, whose keys are listed in tool_options.cpp
+  void input();  ///< operands, --use --run --strict
   /// Whether --use says which column this quantity is.
   bool uses(const std::string& quantity) const;
   void output();  ///< --digits -u
@@ -180,7 +188,6 @@ class Tool {
   std::unique_ptr<CLI::App> app_;
   std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool
   std::string scene_file_;
-  BodyUncertainty ignored_;
 };
 
 }  // namespace rolling

@@ -19,11 +19,6 @@ namespace {
 constexpr std::string_view version = "1.0.0";
 constexpr std::size_t help_column = 30;
 
-bool to_bool(const std::string& text) {
-  if (text != "true" && text != "false") fail("'{}' is neither true nor false", shown(text));
-  return text == "true";
-}
-
 /// The keys of a scene. A tool ignores those that it does not need.
 constexpr std::string_view keys[] = {"mass",  "radius",      "shape-factor", "gravity",
                                      "slope", "coefficient", "exponent",     "exact",
@@ -89,11 +84,6 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
       ->disable_flag_override();
 }
 
-void Tool::flag(const std::string& names, bool& value, const std::string& help) {
-  add(
-      names, "", help, [&value](const std::string& text) { value = to_bool(text); }, Values::none);
-}
-
 void Tool::number(const std::string& names, double& value, const Domain& domain,
                   const std::string& help, double* sigma) {
   add(names, "NUMBER", help,
@@ -126,35 +116,24 @@ void Tool::text(const std::string& names, std::string& value, const std::string&
   });
 }
 
-void Tool::body(Body& body, std::initializer_list<double Body::*> numbers,
-                BodyUncertainty* uncertainty) {
+void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
   body = {not_given, not_given, not_given};
-  BodyUncertainty& u = uncertainty ? *uncertainty : ignored_;
   static constexpr struct {
     const char* names;
     double Body::*value;
-    double BodyUncertainty::*sigma;
+    double Body::*sigma;
     Domain domain;
     const char* help;
   } all[] = {{"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
-             {"-R,--radius", &Body::R, &BodyUncertainty::R, positive, "radius R [m]"},
-             {"-K,--shape-factor", &Body::K, &BodyUncertainty::K, not_negative,
+             {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]"},
+             {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative,
               "shape factor K of J = K m R^2"},
-             {"-g,--gravity", &Body::g, &BodyUncertainty::g, positive, "gravity g [m/s^2] (9.81)"},
-             {"--slope", &Body::slope, &BodyUncertainty::slope, any_number,
+             {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)"},
+             {"--slope", &Body::slope, &Body::sigma_slope, any_number,
               "rise of the mat in metres per metre of growing x (0)"}};
   for (const auto& [names, value, sigma, domain, help] : all)
     if (std::ranges::find(numbers, value) != numbers.end())
-      number(names, body.*value, domain, help, sigma ? &(u.*sigma) : nullptr);
-}
-
-void Tool::geometry(Geometry& geometry) {
-  add(
-      "--exact", "", "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)",
-      [&geometry](const std::string& text) {
-    geometry = to_bool(text) ? Geometry::exact : Geometry::approximate;
-      },
-      Values::none);
+      number(names, body.*value, domain, help, sigma ? &(body.*sigma) : nullptr);
 }
 
 void Tool::scene() {

@@ -13,27 +13,21 @@ struct Body {
   double K;          ///< shape factor: 1/2 solid cylinder, 1 thin shell
   double g = 9.81;   ///< gravity [m/s^2]
   double slope = 0;  ///< of the mat: tan theta, its rise in metres per metre of growing x
-};
-
-/// The standard uncertainties of the numbers of a body; 0 if none is given.
-struct BodyUncertainty {
-  double R = 0;      ///< [m]
-  double K = 0;      ///< of the shape factor
-  double g = 0;      ///< [m/s^2]
-  double slope = 0;  ///< of tan(theta)
+  /// The standard uncertainties; 0 if none is given.
+  double sigma_R = 0, sigma_K = 0, sigma_g = 0, sigma_slope = 0;
 };
 
 /// The numbers of a body that may have a standard uncertainty.
 struct UncertainNumber {
   const char* name;
   double Body::*value;
-  double BodyUncertainty::*sigma;
+  double Body::*sigma;
 };
 inline constexpr std::array<UncertainNumber, 4> uncertain_numbers = {
-    {{"K", &Body::K, &BodyUncertainty::K},
-     {"R", &Body::R, &BodyUncertainty::R},
-     {"g", &Body::g, &BodyUncertainty::g},
-     {"slope", &Body::slope, &BodyUncertainty::slope}}};
+    {{"K", &Body::K, &Body::sigma_K},
+     {"R", &Body::R, &Body::sigma_R},
+     {"g", &Body::g, &Body::sigma_g},
+     {"slope", &Body::slope, &Body::sigma_slope}}};
 
 /// The arm of F_H is A R. In the approximate geometry A = 1, as in the paper's simulations (Eqs. 11
 /// to 13); in the exact one A = sqrt(1 - D^2/R^2) (Eq. 8).

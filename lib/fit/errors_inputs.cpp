@@ -16,12 +16,12 @@ namespace {
 
 /// The body of a run, with the uncertainties of its numbers, and the geometry of the route.
 ShiftOf body_of(Route route, const FitRun& run, const FitOptions& options) {
-  if (is_trajectory(route)) return {run.body, options.geometry, run.given};
+  if (is_trajectory(route)) return {run.body, options.geometry};
   return run.shift_of.value_or(ShiftOf{});
 }
 
 Estimate given(const ShiftOf& by, const UncertainNumber& number) {
-  return {by.body.*number.value, by.given.*number.sigma};
+  return {by.body.*number.value, by.body.*number.sigma};
 }
 
 void move(Route route, FitRun& run, const UncertainNumber& number, double by) {

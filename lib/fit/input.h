@@ -17,7 +17,6 @@ namespace rolling {
 struct ShiftOf {
   Body body;
   Geometry geometry = Geometry::approximate;
-  BodyUncertainty given = {};  ///< the standard uncertainties of K, R, g and the slope
 };
 /// The acceleration [m/s^2] from which the shift D [m] was computed. For A = 1 the relation is
 /// linear and holds for any D.
@@ -31,14 +30,13 @@ inline double acceleration_of(const ShiftOf& by, double D) {
 /// v; position reads t and x.
 struct FitRun {
   std::vector<double> t, x, v, D;
-  Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only)
+  Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only); runs
+                        ///< that give the same number with the same uncertainty share its error
   FilterChain filters;  ///< the filters that made the fitted columns of x alone or of v alone, in
                         ///< order; empty if they are unknown. In the chain, the column D stands for
                         ///< the acceleration from which shift_of computed D.
   std::optional<ShiftOf> shift_of = {};
-  BodyUncertainty given = {};  ///< the standard uncertainties of `body`; runs that give the same
-                               ///< number with the same uncertainty share its error
-  std::string name = {};       ///< for messages
+  std::string name = {};  ///< for messages
 };
 
 enum class Route { loglog, shift, velocity, position };

@@ -4,7 +4,7 @@
 
 #include "base/double_double.h"
 #include "contact/body.h"
-#include "motion/motion.h"
+#include "motion/scene.h"
 #include "contact/law.h"
 
 namespace rolling {

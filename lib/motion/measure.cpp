@@ -23,8 +23,7 @@ Reference reference(const Scene& scene, std::size_t n, double end) {
   return result;
 }
 
-Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference& right,
-                 double v0) {
+Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference& right) {
   Measured result;
   try {
     const auto motion = start();
@@ -32,7 +31,7 @@ Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Re
       motion->seek(right.times[i]);
       const double v = motion->velocity();
       if (!std::isfinite(v)) fail("v is not a number at t = {:.6g} s", right.times[i]);
-      result.v_error = std::max(result.v_error, std::abs(v - right.speeds[i]) / v0);
+      result.v_error = std::max(result.v_error, std::abs(v - right.speeds[i]) / right.speeds[0]);
     }
     result.evaluations = motion->evaluations();
     if (std::isfinite(right.stop))

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "motion/motion.h"
 #include "motion/scene.h"
 
 namespace rolling {
@@ -25,7 +24,7 @@ struct Reference {
 Reference reference(const Scene&, std::size_t n, double end);
 
 struct Measured {
-  double v_error = 0;     ///< largest |v - reference| / v0
+  double v_error = 0;     ///< largest |v - reference|, over the first speed
   double stop_error = 0;  ///< relative; 0 if there is no stop
   unsigned long evaluations = 0;
   double seconds = 0;   ///< of the processor per sample, with the start
@@ -34,7 +33,6 @@ struct Measured {
 
 /// Computes one roll for the errors, which also warms the cache, and for the time as many as take
 /// 20 ms.
-Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference&,
-                 double v0);
+Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Reference&);
 
 }  // namespace rolling

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/error.h"
 #include "contact/contact.h"
@@ -57,30 +56,6 @@ class SpeedRoll final : public Motion {
   Roll::Point state_{};
 };
 
-/// The scene as a mirror shows it: x, v and the slope of the mat change their signs.
-Scene mirrored(Scene scene) {
-  scene.body.slope = 0 - scene.body.slope, scene.v0 = 0 - scene.v0, scene.x0 = 0 - scene.x0;
-  return scene;
-}
-
-/// The roll of a mirrored scene, seen without the mirror.
-class MirroredRoll final : public Motion {
- public:
-  explicit MirroredRoll(std::unique_ptr<Motion> image) : image_(std::move(image)) {}
-
-  double stop_time() override { return image_->stop_time(); }
-  double last_speed() override { return 0 - image_->last_speed(); }
-  void seek(double t) override { image_->seek(t); }
-  double position() override { return 0 - image_->position(); }
-  double velocity() override { return 0 - image_->velocity(); }
-  double acceleration() override { return 0 - image_->acceleration(); }
-  double shift() override { return 0 - image_->shift(); }
-  unsigned long evaluations() const override { return image_->evaluations(); }
-
- private:
-  std::unique_ptr<Motion> image_;
-};
-
 /// On a level mat with A = 1, where no number is so large or small that products of some are beyond
 /// those of double-double arithmetic.
 bool has_closed_form(const Scene& s) {
@@ -94,15 +69,12 @@ bool has_closed_form(const Scene& s) {
 }  // namespace
 
 Method best_method(const Scene& scene) {
-  if (scene.v0 < 0) return best_method(mirrored(scene));
   if (scene.bulge.length > 0) return {Method::solver, memory_stepper(scene)};
   return {has_closed_form(scene) ? Method::closed : Method::exact};
 }
 
 std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
                               unsigned long most_steps) {
-  if (scene.v0 < 0)
-    return std::make_unique<MirroredRoll>(start(mirrored(scene), method, rtol, most_steps));
   const auto& [body, geometry, law, bulge, v0, x0] = scene;
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   check_roll(body, law, v0);

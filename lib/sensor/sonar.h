@@ -3,7 +3,7 @@
 // rounding and lost echoes: raw data for which the law and the start are known.
 #pragma once
 
-#include "motion/motion.h"
+#include "motion/scene.h"
 
 #include <functional>
 #include <limits>

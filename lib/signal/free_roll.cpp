@@ -13,7 +13,6 @@
 #include "signal/outliers.h"
 #include "signal/pieces.h"
 #include "signal/readings.h"
-#include "signal/units.h"
 
 namespace rolling {
 namespace {

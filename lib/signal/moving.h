@@ -10,7 +10,6 @@
 
 #include "base/double_double.h"
 #include "signal/signal.h"
-#include "signal/sorted_window.h"
 
 namespace rolling {
 

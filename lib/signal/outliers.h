@@ -5,7 +5,6 @@
 #include <deque>
 
 #include "signal/signal.h"
-#include "signal/sorted_window.h"
 
 namespace rolling {
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/golden_section.h"
-#include "signal/units.h"
 
 namespace rolling {
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window around each sample of a run, as soon as its samples are known; needs the memory of one
-// window.
+// The samples of a run, and the window around each as soon as its samples are known; needs the
+// memory of one window.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -11,6 +14,21 @@ namespace rolling {
 
 struct Sample {
   double t, y;
+};
+
+/// Units in which the readings of a run and its duration are of order one. A computation that takes
+/// squares of readings or times first changes to these units: no square overflows or underflows
+/// then. Both units are powers of two, so the change does not round.
+struct Units {
+  int t = 0, y = 0;  ///< the exponents of 2
+
+  explicit Units(std::span<const Sample> run) {
+    double largest = 0;
+    for (const Sample& s : run) largest = std::max(largest, std::abs(s.y));
+    if (largest > 0) y = std::ilogb(largest);
+    if (run.size() > 1) t = std::ilogb(run.back().t - run.front().t);
+  }
+  Sample operator()(const Sample& s) const { return {std::ldexp(s.t, -t), std::ldexp(s.y, -y)}; }
 };
 
 /// The width of a window: an odd number of samples or, if seconds > 0, a duration, half of which
@@ -107,6 +125,31 @@ class Sliding {
  private:
   Held held_;
   std::size_t begin_ = 0, end_ = 0;  // the samples that are in it
+};
+
+/// The readings of a window in sorted order, with access by rank. Insertion and removal move half
+/// of the readings by one place, which takes 1 us for 10,000.
+class SortedWindow {
+ public:
+  void add(double y) { sorted_.insert(std::ranges::upper_bound(sorted_, y), y); }
+  /// Of a reading that is in the window.
+  void subtract(double y) { sorted_.erase(std::ranges::lower_bound(sorted_, y)); }
+  /// The same as subtract(old) and add(y); the readings between them alone are moved.
+  void exchange(double y, double old) {
+    const auto from = std::ranges::lower_bound(sorted_, old),
+               to = std::ranges::lower_bound(sorted_, y);
+    if (from < to) *std::move(from + 1, to, from) = y;
+    else std::move_backward(to, from, from + 1), *to = y;
+  }
+  std::size_t size() const { return sorted_.size(); }
+  double operator[](std::size_t rank) const { return sorted_[rank]; }
+
+  /// The median (the mean of the two middle readings for an even number). The window must not be
+  /// empty.
+  double median() const { return std::midpoint(sorted_[(size() - 1) / 2], sorted_[size() / 2]); }
+
+ private:
+  std::vector<double> sorted_;
 };
 
 }  // namespace rolling

@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "base/gsl.h"
-#include "motion/motion.h"
 #include "motion/scene.h"
 
 namespace rolling {

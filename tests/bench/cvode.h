@@ -16,7 +16,6 @@
 
 #include "base/error.h"
 #include "base/gsl.h"
-#include "motion/motion.h"
 #include "motion/scene.h"
 #include "contact/contact.h"
 

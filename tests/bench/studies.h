@@ -121,7 +121,9 @@ struct InputQuantities {
 inline InputQuantities input_quantities(int draws, unsigned seed) {
   Body body = troubled::cylinder;
   body.slope = 0.002;
-  const BodyUncertainty u{.R = 4e-4, .K = 0.01, .g = 0.01, .slope = 3e-4};
+  Body uncertain = body;
+  uncertain.sigma_R = 4e-4, uncertain.sigma_K = 0.01, uncertain.sigma_g = 0.01;
+  uncertain.sigma_slope = 3e-4;
   Roll truth(body, Geometry::exact, CR, troubled::v0);
   FitOptions options;
   options.geometry = Geometry::exact;
@@ -137,19 +139,19 @@ inline InputQuantities input_quantities(int draws, unsigned seed) {
       run.x.push_back(truth.at(t).x + noise(troubled::noise));
     }
     if (k % 100 == 0) {
-      run.given = u;
+      run.body = uncertain;
       const FitResult r = fit(Route::position, {run}, options);
       all.stated_a += r.sigma_a / stating;
       all.stated_b += r.sigma_b / stating;
       all.stated_v0 += r.v0[0].sigma / stating;
       all.stated_corr += r.corr / stating;
       if (k == 0) all.first = r;
-      run.given = {};
+      run.body = body;
     }
-    run.body.K += noise(u.K);
-    run.body.R += noise(u.R);
-    run.body.g += noise(u.g);
-    run.body.slope += noise(u.slope);
+    run.body.K += noise(uncertain.sigma_K);
+    run.body.R += noise(uncertain.sigma_R);
+    run.body.g += noise(uncertain.sigma_g);
+    run.body.slope += noise(uncertain.sigma_slope);
     const FitResult r = fit(Route::position, {run}, options);
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);
@@ -192,7 +194,7 @@ inline Tally remedied(const troubled::Trouble& wrong, PowerLaw law, int runs, un
   Tally a{law.a};
   for (int k = 0; k < runs; ++k) {
     FitRun run = readings.next();
-    if (wrong.K != troubled::cylinder.K) run.given.K = wrong.K - troubled::cylinder.K;
+    if (wrong.K != troubled::cylinder.K) run.body.sigma_K = wrong.K - troubled::cylinder.K;
     while (wrong.hand > 0 && run.t.front() < wrong.hand)
       run.t.erase(run.t.begin()), run.x.erase(run.x.begin());
     const FitResult r = fit(Route::position, {run}, {});

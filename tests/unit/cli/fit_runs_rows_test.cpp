@@ -30,7 +30,7 @@ TEST_CASE("fit_rows: what a number brings to rows is common to those that give i
   {
     const Redirect to_file(STDOUT_FILENO, printed.name());
     status = tool.run(2, arguments.data(), [&] {
-      fit_rows(tool, {{}, {}, {cylinder, cylinder, shell, shell}, {{0.04, 0.0002}}});
+      fit_rows(tool, {{}, {cylinder, cylinder, shell, shell}, {{0.04, 0.0002}}});
       return 0;
     });
   }

@@ -183,10 +183,10 @@ TEST_CASE("history: uncertainties and the slope of shift-from-accel are read bac
   const History history =
       history_of({"shift-from-accel K 0.5+-0.005 R 0.04+-1e-05 g 9.81 slope -0.001+-2e-4"}, times);
   REQUIRE(history.shift_of);
-  CHECK(history.shift_of->given.K == 0.005);
-  CHECK(history.shift_of->given.R == 1e-5);
-  CHECK(history.shift_of->given.g == 0);
-  CHECK(history.shift_of->given.slope == 2e-4);
+  CHECK(history.shift_of->body.sigma_K == 0.005);
+  CHECK(history.shift_of->body.sigma_R == 1e-5);
+  CHECK(history.shift_of->body.sigma_g == 0);
+  CHECK(history.shift_of->body.sigma_slope == 2e-4);
   CHECK(history.shift_of->body.slope == -0.001);
   // A body whose mass is all in its axis.
   const auto point = history_of({"shift-from-accel K 0 R 0.04 g 9.81"}, times);

@@ -24,7 +24,7 @@ struct Given {
 
 /// What a file with this text sets, beside these words on the command line.
 Given law_of(const std::string& text, std::vector<std::string> words = {},
-             Uncertainties uncertainties = Uncertainties::ignored) {
+             bool with_errors = false) {
   const TemporaryFile file(text), errors;
   Given given;
   Tool tool("tool", "");
@@ -48,7 +48,7 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
                              {"v0", "m/s", &given.v0},
                              {"x0", "m", &given.x0},
                              {"t0", "s", &given.t0}},
-                            uncertainties);
+                            with_errors);
       given.law = given.file.law.power().value_or(given.options.power);
       return 0;
     });
@@ -84,11 +84,11 @@ TEST_CASE("law file: where the roll of a row begins", "[cli]") {
 // Of a v^b: (sigma_D/D)^2 = (sigma_a/a)^2 + (sigma_b ln v)^2 + 2 corr (sigma_a/a) sigma_b ln v. Of
 // d0 + d2 v^2, which is linear: C00 + 2 C02 v^2 + C22 v^4.
 TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cli]") {
-  const Given power = law_of("# a[mm]\tsigma_a[mm]\tb\tsigma_b\tcorr\n2\t0.04\t0.2\t0.01\t0.8\n",
-                             {}, Uncertainties::needed);
+  const Given power =
+      law_of("# a[mm]\tsigma_a[mm]\tb\tsigma_b\tcorr\n2\t0.04\t0.2\t0.01\t0.8\n", {}, true);
   const Given square = law_of(
       "# d0[mm]\tsigma_d0[mm]\td2[s^2/m]\tsigma_d2[s^2/m]\tcorr_d0_d2\n1\t0.02\t4e-4\t1e-4\t-0.7\n",
-      {}, Uncertainties::needed);
+      {}, true);
   for (const double v : {0.02, 0.5, 1.0, -3.0}) {
     CAPTURE(v);
     const double log = std::log(std::abs(v)), D = 2e-3 * std::pow(std::abs(v), 0.2);
@@ -102,7 +102,7 @@ TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cl
   }
   const std::string bare = "a b\n2e-3 0\n";
   CHECK(std::isnan(law_of(bare).file.sigma(1)));
-  CHECK(law_of(bare, {}, Uncertainties::needed).status == 2);
+  CHECK(law_of(bare, {}, true).status == 2);
 }
 
 TEST_CASE("law file: a table of v and D", "[cli]") {

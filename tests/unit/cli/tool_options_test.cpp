@@ -12,7 +12,6 @@ using namespace rolling;
 
 TEST_CASE("options: what is given about a body, on the command line and in a scene", "[cli]") {
   Body body{};
-  BodyUncertainty sigma;
   std::vector<std::string> operands;
   const auto given = [&](std::vector<std::string> words, const std::vector<std::string>& needed) {
     const TemporaryFile file;
@@ -20,9 +19,8 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
     words.insert(words.begin(), "tool");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
-    sigma = {};
     Tool tool("tool", "");
-    tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope}, &sigma);
+    tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
     tool.scene();
     tool.add(
         "--word", "WORD", "", [&](const auto& word) { operands.push_back(word); },
@@ -49,13 +47,13 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
       "shape-factor = \"0.50 +- 0.005\"\nradius = 0.04\nslope = '1e-3+-1e-4'\n");
   CHECK(given({"--scene", scene.name(), "-R0.05+-0.001", "-g", "9.8 +- 0.1"}, {"radius"}) == "0 ");
   CHECK(body.K == 0.5);
-  CHECK(sigma.K == 0.005);
+  CHECK(body.sigma_K == 0.005);
   CHECK(body.R == 0.05);
-  CHECK(sigma.R == 0.001);
+  CHECK(body.sigma_R == 0.001);
   CHECK(body.g == 9.8);
-  CHECK(sigma.g == 0.1);
+  CHECK(body.sigma_g == 0.1);
   CHECK(body.slope == 1e-3);
-  CHECK(sigma.slope == 1e-4);
+  CHECK(body.sigma_slope == 1e-4);
   CHECK(given({"-K", "0.5+--1"}, {}) ==
         "2 tool: -K,--shape-factor: '0.5+--1' is not a number (decimal point, no unit)\n");
   CHECK(given({"-R", "0+-1"}, {}) == "2 tool: -R,--radius: '0+-1' must be greater than 0\n");

@@ -8,8 +8,9 @@ using namespace rolling;
 
 namespace {
 
-const Body cylinder{1.375, 0.04, 0.5};
-const BodyUncertainty given{.R = 2e-4, .K = 0.005, .g = 0.02};
+const Body cylinder{1.375, 0.04, 0.5},
+    with_errors{
+        .m = 1.375, .R = 0.04, .K = 0.5, .sigma_R = 2e-4, .sigma_K = 0.005, .sigma_g = 0.02};
 
 double share(const FitResult& r, const std::string& of, std::size_t coefficient) {
   for (const ErrorShare& s : r.shares)
@@ -29,9 +30,8 @@ FitRun made_run(Route route, unsigned seed) {
   }
   if (route == Route::shift || route == Route::loglog)
     run = simulated::shifts(cylinder, run.t, run.x, 9, "x");
-  run.body = cylinder;
-  run.given = given;
-  if (run.shift_of) run.shift_of->given = given;
+  run.body = with_errors;
+  if (run.shift_of) run.shift_of->body = with_errors;
   return run;
 }
 
@@ -44,8 +44,8 @@ TEST_CASE("input quantities: ln a moves by dK/(1 + K), dR/R and dg/g, b does not
       FitRun run = made_run(route, 3);
       if (!filters_known) run.filters.clear();
       const auto r = fit(route, {run}, {});
-      run.given = {};
-      if (run.shift_of) run.shift_of->given = {};
+      run.body = cylinder;
+      if (run.shift_of) run.shift_of->body = cylinder;
       const auto by_noise = fit(route, {run}, {});
       CAPTURE(static_cast<int>(route), filters_known);
       const bool biased = route == Route::loglog && filters_known;
@@ -86,7 +86,7 @@ TEST_CASE("input quantities: on a level mat the shares are those of fits with ot
 
 TEST_CASE("input quantities: runs of one body move together, those of two apart", "[fit]") {
   std::vector<FitRun> runs{made_run(Route::position, 3), made_run(Route::position, 4)};
-  for (FitRun& run : runs) run.given = {.K = 0.005};
+  for (FitRun& run : runs) run.body = cylinder, run.body.sigma_K = 0.005;
   const auto one = fit(Route::position, runs, {});
   REQUIRE(one.shares.size() == 2);
   CHECK(std::abs(share(one, "K", 0) / one.a / (0.005 / 1.5) - 1) < 1e-3);
@@ -109,7 +109,7 @@ TEST_CASE("input quantities: where runs disagree their shares are those of the m
     FitRun& run = runs.emplace_back();
     run.body = cylinder;
     run.body.K = K;
-    run.given = {.K = K == 0.5 ? 0.0 : 0.05};
+    run.body.sigma_K = K == 0.5 ? 0.0 : 0.05;
     const double size = K == 0.5 ? 1e-4 : 3e-4;  // one law for all would follow the cylinder
     const auto truth = simulated::roll(run.body, by * 1.87e-3, 0.215, 0.5);
     for (double t = 0; t < 2; t += 0.02) {

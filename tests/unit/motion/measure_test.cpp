@@ -19,7 +19,7 @@ Scene scene(double b, double length = 0) {
 }
 
 Measured run(const Scene& roll, Method method, double rtol) {
-  return measure([&] { return start(roll, method, rtol); }, reference(roll, 50, 5), roll.v0);
+  return measure([&] { return start(roll, method, rtol); }, reference(roll, 50, 5));
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ TEST_CASE("measure: the stop by a method that is off shows in the errors", "[rol
   Scene other = scene(0.215);
   other.law = PowerLaw{1.01 * 1.87e-3, 0.215};
   const Reference right = reference(scene(0.215), 50, 5);
-  const Measured off = measure([&] { return start(other, {Method::closed}, 0); }, right, 0.5);
+  const Measured off = measure([&] { return start(other, {Method::closed}, 0); }, right);
   CHECK((off.stop_error > 0.009 && off.stop_error < 0.011));
   CHECK((off.v_error > 1e-3 && off.v_error < 0.02));
 }
@@ -72,9 +72,9 @@ TEST_CASE("measure: a failure says how", "[rolling]") {
     double shift() override { return 0; }
   };
   const Measured nan =
-      measure([] { return std::make_unique<NoNumber>(); }, reference(scene(0.215), 5, 1), 0.5);
+      measure([] { return std::make_unique<NoNumber>(); }, reference(scene(0.215), 5, 1));
   CHECK(nan.failure == "v is not a number at t = 0 s");
   const Measured failed = measure([]() -> std::unique_ptr<Motion> { fail("it does not work"); },
-                                  reference(scene(0.215), 5, 1), 0.5);
+                                  reference(scene(0.215), 5, 1));
   CHECK(failed.failure == "it does not work");
 }

@@ -63,25 +63,3 @@ TEST_CASE("Scene: every solver refuses a v0 that is too small for it, and is rig
     CHECK(std::abs(start(roll, {Method::solver, stepper}, rtol)->stop_time() / stop - 1) < 1e-4);
   }
 }
-
-TEST_CASE("Scene: a roll towards falling x is the mirror image, to the last digit", "[rolling]") {
-  Scene roll{{1.375, 0.04, 0.5}, Geometry::exact, PowerLaw{1e-3, 0.2}, {0}, 0.5, 0.1};
-  for (const double slope : {0.0, 0.02, -0.05})  // it stops, comes back, never stops
-    for (const Method method : {Method{Method::exact}, Method{Method::solver, Stepper::rkf45}}) {
-      roll.body.slope = slope;
-      Scene other = roll;
-      other.body.slope = -slope, other.v0 = -roll.v0, other.x0 = -roll.x0;
-      const auto one = start(roll, method, 1e-9), image = start(other, method, 1e-9);
-      CAPTURE(slope, method.kind == Method::exact);
-      CHECK(image->last_speed() == -one->last_speed());
-      for (const double t : {0.0, 0.7, 3.0}) {
-        one->seek(t), image->seek(t);
-        CHECK(image->velocity() == -one->velocity());
-        CHECK(image->position() == -one->position());
-        CHECK(image->acceleration() == -one->acceleration());
-        CHECK(image->shift() == -one->shift());
-      }
-      CHECK(image->stop_time() == one->stop_time());
-      CHECK(image->evaluations() == one->evaluations());
-    }
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/sorted_window.h"
+#include "signal/windows.h"
 
 #include <algorithm>
 #include <cmath>
