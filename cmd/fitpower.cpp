@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/fit_report.h"
 #include "cli/fit_runs.h"
 #include "cli/law_file.h"
 #include "cli/history.h"

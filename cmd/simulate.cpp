@@ -7,7 +7,6 @@
 #include "cli/law_file.h"
 #include "cli/quantities.h"
 #include "cli/tool.h"
-#include "motion/measure.h"
 #include "motion/scene.h"
 #include "sensor/sonar.h"
 

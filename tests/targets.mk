@@ -51,7 +51,7 @@ build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main
 # differentiate with their sums and numbers built so.
 exact_source := lib/base/double_double.cpp lib/contact/contact.cpp tests/fused/fused.cpp \
                 $(wildcard lib/contact/*law.cpp lib/ode/*.cpp) \
-                $(filter-out lib/motion/measure.cpp,$(wildcard lib/motion/*.cpp))
+                $(filter-out lib/motion/scene_measure.cpp,$(wildcard lib/motion/*.cpp))
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
                    uname -m | grep -x x86_64)
 build/fused/obj/%.o: %.cpp

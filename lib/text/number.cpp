@@ -22,7 +22,6 @@
 #endif
 
 #include "base/double_double.h"
-#include "text/shortest.h"
 
 namespace rolling {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "bench/bare_gsl.h"
 #include "bench/cvode.h"
-#include "motion/measure.h"
+#include "motion/scene.h"
 
 using namespace rolling;
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "text/layout.h"
+#include "text/head.h"
 #include "unit/text/files.h"
 #include "unit/catch.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/layout.h"
+#include "text/head.h"
 
 #include <algorithm>
 #include <map>

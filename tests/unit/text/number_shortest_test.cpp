@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/shortest.h"
+#include "text/number.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/parameters.h"
+#include "fit/model.h"
 
 #include "unit/catch.h"
 

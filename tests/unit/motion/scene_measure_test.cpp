@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "motion/measure.h"
+#include "motion/scene.h"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 // shortest such number is the multiple of ten within u/2, of which there is at most one, or else
 // the nearest whole number. Where the product is too coarse to tell, one case in 2^50 or so, fmt
 // decides.
-#include "text/shortest.h"
+#include "text/number.h"
 
 #include <fmt/core.h>
 
