@@ -117,15 +117,13 @@ class Search {
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
     const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
-    const auto va = a.v(t), vb = b.v(t), ya = a.y(t), yb = b.y(t);
+    const auto va = a.v(t), vb = b.v(t);
     const auto ma = a.a(a.middle()), mb = b.a(b.middle());
     const double ratio = mb.value / ma.value, way = sign(ma.value);
     // On a slight slope the way back is steady: D is as large as the slope allows.
     const bool turns = va.value * way > -0.25 * fastest_ && comes_back(b, way);
     if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.error)) return false;
     if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
-    const double passed = std::max(jump(a.y(a.from), ya), jump(yb, b.y(b.to)));
-    if (positions_ && jump(ya, yb) > 5 * error(ya, yb) + 0.02 * passed) return false;
     if (turns) return ratio < 1.2;  // D is against the motion on both ways
     const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
@@ -157,9 +155,7 @@ class Search {
     if (s.begin > 0) {
       const Piece<P>& before = pieces_[c.first - 1];
       const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);
-      // No further than by as much again: a longer piece could be of the roll itself.
-      const std::size_t far = std::min(first.size() / 3, before.size());
-      s.begin = before.begin + joints_.inner(cost, before.size(), far, 1);
+      s.begin = before.begin + joints_.inner(cost, before.size(), first.size() / 3, 1);
       s.begin = std::max(s.begin, first.end - joints_.agreeing(first.end - 1, first.begin));
       // A speed is made of positions on either side of its time, also of one before the joint.
       const double begin = samples_[s.begin].t,
