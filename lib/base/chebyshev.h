@@ -93,10 +93,11 @@ class ChebyshevSeries {
     for (const Values& term : terms_) most = std::max(most, std::abs(term[i]));
     return most;
   }
-  /// True if the last terms of each value are at most `tolerance` times its largest term.
-  bool converges(double tolerance) const {
+  /// True if the last terms of the first value are at most `tolerance` times its largest term, and
+  /// of the others `of_others`.
+  bool converges(double tolerance, double of_others) const {
     for (std::size_t i = 0; i < N; ++i)
-      if (!(last(i) <= tolerance * largest(i))) return false;
+      if (!(last(i) <= (i == 0 ? tolerance : of_others) * largest(i))) return false;
     return true;
   }
 
@@ -112,8 +113,9 @@ class ChebyshevSeries {
 };
 
 /// A function of time, with an array of values, at times that are dense: a Chebyshev series takes
-/// the place of the function wherever it holds for 80 times or more to within rounding. At other
-/// times the function itself is called.
+/// the place of the function wherever it holds for 80 times or more, the first value to within
+/// rounding and the others, its derivatives, to within 1e-12. At other times the function itself is
+/// called.
 template <typename Function>
 class ChebyshevPanels {
  public:
@@ -143,7 +145,7 @@ class ChebyshevPanels {
           }))
         continue;
       panel_ = {t, last, f_};
-      if (panel_.converges(2e-15)) return true;
+      if (panel_.converges(2e-15, 1e-13)) return true;
     }
     size_ = least, direct_ = least, panel_ = {};
     return false;

@@ -142,19 +142,37 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
 
 namespace {
 
-/// x or v of a roll with its derivatives, as a Chebyshev series where the times are dense.
-auto rolled(const ObservedRun& run, Roll roll) {
+/// The raw column of a roll with so many derivatives, as a Chebyshev series where the times are
+/// dense.
+template <std::size_t columns>
+RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x0) {
   const double last = run.t.back();
   const std::array corners{roll.stop_until(last), roll.radius_time(last)};
-  const auto direct =
-      [roll = std::move(roll), position = run.column == RawColumn::x](double t) mutable {
-    const Roll::Point p = roll.at(t);
-    std::array<double, 2 + Roll::most> values{position ? p.x : p.v, position ? p.x_v0 : p.v_v0};
-    std::ranges::copy(position ? p.x_c : p.v_c, values.begin() + 2);
+  const auto direct = [&q, x0, way = run.way, position = run.column == RawColumn::x,
+                       roll = std::move(roll)](double t) mutable {
+    Roll::Point p = roll.at(t);
+    Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
+    const std::size_t slope = roll.law().size();  // behind the coefficients, and way^2 is 1
+    for (std::size_t j = 0; j < slope; ++j) by_c[j] *= way;
+    std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v)};
+    // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
+    q.chain(&values[0] + 1, 1, roll.law().c(0),
+            {by_c, way * (position ? p.x_v0 : p.v_v0), 1, by_c[slope]});
     return values;
   };
-  return ChebyshevPanels(run.t, corners, direct);
+  return [at = ChebyshevPanels(run.t, corners, direct)](double t, double* slopes,
+                                                        std::size_t stride) mutable {
+    const auto values = at(t);
+    for (std::size_t j = 0; j < columns; ++j) slopes[j * stride] = values[1 + j];
+    return values[0];
+  };
 }
+
+/// `rolled` of 1, 2, 3, ... columns.
+constexpr auto rolled_of = []<std::size_t... n>(std::index_sequence<n...>) {
+  return std::array{&rolled<n + 1>...};
+}
+(std::make_index_sequence<Parameters::most>());
 
 }  // namespace
 
@@ -171,15 +189,8 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
       q.chain(slopes, stride, law.c(0), {by_c});
       return logarithm ? std::log(D) : D;
     };
-  return
-      [&q = parameters_, law, x0 = parameters_.x0(theta, r), way = run.way,
-       rolled = rolled(run, roll(theta, r))](double t, double* slopes, std::size_t stride) mutable {
-    auto of = rolled(t);
-    for (std::size_t j = 0; j < 1 + law.size(); ++j) of[1 + j] *= way;
-    // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
-    q.chain(slopes, stride, law.c(0), {std::span(of).subspan(2), of[1], 1, of[2 + law.size()]});
-    return x0 + way * of[0];
-      };
+  return rolled_of[parameters_.columns() - 1](run, roll(theta, r), parameters_,
+                                              parameters_.x0(theta, r));
 }
 
 std::vector<double> Model::raw_column(const std::vector<double>& theta, std::size_t r) const {

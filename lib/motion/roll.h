@@ -27,7 +27,7 @@ void check_roll(const Body&, const Law&, double v0);
 /// sign of the slope.
 class Roll : Leg {
  public:
-  using Leg::most, Leg::Point;
+  using Leg::most, Leg::Point, Leg::Derivatives;
   // Of the first leg; its stop is the turning point of a roll that turns.
   using Leg::radius_speed, Leg::radius_time, Leg::rest_speed, Leg::stop_time, Leg::stop_until;
 

@@ -51,9 +51,9 @@ TEST_CASE("chebyshev: a series is exact for a polynomial of as many terms", "[ba
   CHECK(series.contains(6));
   CHECK_FALSE(series.contains(6.0001));
   CHECK_FALSE(series.contains(1.9999));
-  CHECK_FALSE(series.converges(0.9));  // the last term is all there is of the first value
-  CHECK_FALSE(ChebyshevSeries<2, 5>(2, 6, f).converges(0.9));  // here the last but one
-  CHECK(ChebyshevSeries<2, 6>(2, 6, f).converges(1e-15));
+  CHECK_FALSE(series.converges(0.9, 0.9));  // the last term is all there is of the first value
+  CHECK_FALSE(ChebyshevSeries<2, 5>(2, 6, f).converges(0.9, 0.9));  // here the last but one
+  CHECK(ChebyshevSeries<2, 6>(2, 6, f).converges(1e-15, 1e-15));
 }
 
 TEST_CASE("chebyshev: a series of exp has its coefficients, those of the Bessel functions",
@@ -65,8 +65,8 @@ TEST_CASE("chebyshev: a series of exp has its coefficients, those of the Bessel 
   // The terms are I_0(1) and 2 I_n(1) (Abramowitz and Stegun 1964, 9.6.34): of eight, the last two
   // are at most 2 I_6(1) / I_0(1) = 3.55e-5 times the first.
   const ChebyshevSeries<1, 8> eight(-1, 1, f);
-  CHECK(eight.converges(3.6e-5));
-  CHECK_FALSE(eight.converges(3.5e-5));
+  CHECK(eight.converges(3.6e-5, 3.6e-5));
+  CHECK_FALSE(eight.converges(3.5e-5, 3.5e-5));
 }
 
 TEST_CASE("chebyshev: panels over dense times, and the function itself over others", "[base]") {

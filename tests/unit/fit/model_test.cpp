@@ -363,6 +363,7 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
             for (std::size_t j = 0; j < 6; ++j) size[j] = std::max(size[j], std::abs(single[j]));
           }
           CAPTURE(of.b, position, inclined, geometry == Geometry::exact);
-          for (std::size_t j = 0; j < 6; ++j) CHECK(off[j] <= 1e-14 * size[j]);
+          CHECK(off[0] <= 1e-14 * size[0]);
+          for (std::size_t j = 1; j < 6; ++j) CHECK(off[j] <= 1e-12 * size[j]);  // derivatives
         }
 }
