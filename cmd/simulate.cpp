@@ -72,7 +72,7 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
   Scene roll{};
-  double way = 1;  ///< -1 for v0 < 0: `roll` is as a mirror shows it, all signs turned
+  double way = 1;  ///< -1 towards falling x: `roll` is the mirror image, with v0 >= 0
   double t0 = 0;
   LawOptions law{};
   Method method{};
@@ -179,7 +179,7 @@ class RowWriter {
 
   void write(double t, Motion& motion) {
     motion.seek(t - task_.t0);
-    // Computed before any is written: a tenth faster than one by one.
+    // Computed before any is written: a tenth faster than one by one. 0 + -0 is 0.
     for (std::size_t i = 0; i < row_.size(); ++i)
       numbers_[i] = 0 + task_.way * row_[i].of(task_.way * t, motion);
     for (const double number : numbers_) out_.cell(number);

@@ -27,7 +27,7 @@ struct Scene {
   Geometry geometry;
   Law law;
   Bulge bulge{0};  ///< of length 0: no memory
-  double v0, x0;   ///< at t = 0
+  double v0, x0;   ///< at t = 0; v0 >= 0
 };
 
 /// A free roll from v0 at t = 0, the same interface for all methods: seek() sets the time, and the

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "contact/law.h"
 #include "fit/diagnostics.h"
-#include "fit/fitted.h"
 #include "fit/fit.h"
+#include "fit/fitted.h"
 #include "unit/fit/simulated.h"
 
 #include <cmath>
