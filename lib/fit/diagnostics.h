@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the residuals of a fit show beside the law: an eccentric body, by a signal of period one
 // turn; single readings far off the motion; a body that does not roll freely from the first row on.
+// Q is orthonormal() of the fit: what the fit can follow.
 #pragma once
 
 #include <optional>
@@ -14,13 +15,13 @@ namespace rolling {
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
 /// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the
 /// speed were steady in a turn) and through the filters of the data, and made orthogonal to the
-/// columns of the Jacobian, because the fit can follow those. The noise before the filters is
+/// columns of Q, because the fit can follow those. The noise before the filters is
 /// assumed white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
 /// correction), or if the period 0.7 or 1.4 times as long has as small a p: the residuals then have
 /// another cause. A run of less than one turn, or with less than two rows in a turn, is not tested.
-std::optional<Eccentricity> eccentricity_of(const Fitted&);
+std::optional<Eccentricity> eccentricity_of(const Fitted&, const Matrix& Q);
 
 /// The probability that white noise turns back as few of the steps from reading to reading, against
 /// the motion of the fitted roll, as these readings do. A median of readings turns back hardly any,
@@ -33,11 +34,13 @@ double few_reversals(const Fitted&);
 /// The readings of a roll that lie ten standard deviations off the motion of the others or further:
 /// one after another the reading with the largest residual, studentised by its leverage, is left
 /// out of the variance, up to a tenth of the run, and those up to the last that is so far off count
-/// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off
-/// the robust roll is looked from first, since such readings bend the roll, as from a fit that is
-/// `robust` itself. For known filters the readings are those of the raw column. Returns the reading
-/// that is furthest off, of the run where that is most; the count is 0 where none is.
-OffReadings off_readings(const Fitted&, bool robust = false);
+/// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off,
+/// the readings are compared with the robust roll, since such readings bend the other. For known
+/// filters the readings are those of the raw column. Returns the reading that is furthest off, of
+/// the run where that is most; the count is 0 where none is.
+OffReadings off_readings(const Fitted&, const Matrix& Q);
+/// The same of a fit that is robust itself.
+OffReadings off_readings_of_robust(const Fitted&);
 
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.

@@ -63,17 +63,20 @@ std::vector<double> response(const ObservedRun& run, const Path& path, double r)
 }
 
 /// The amplitude of the response to a period of 2 pi r in the residuals f of a run, of so many
-/// degrees of freedom, and its p. J holds the derivatives of the residuals.
+/// degrees of freedom, and its p. Q: the columns that the fit follows.
 Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, double r,
-                       double freedom, std::vector<double> f, std::span<const double> J) {
+                       double freedom, std::vector<double> f,
+                       std::span<const std::span<const double>> Q) {
   const ObservedRun& of = fit.model->runs()[run];
   std::vector<double> by_e = response(of, path, r);
   if (of.H) by_e = of.H->times(by_e);
   if (fit.noise->known()) fit.noise->whitener(run).apply(by_e);
-  std::vector<double> columns(J.begin(), J.end());
+  const std::size_t own = Q.size(), q = own + 2;
+  std::vector<double> columns;
+  columns.reserve(q * f.size());
+  for (const auto column : Q) columns.insert(columns.end(), column.begin(), column.end());
   columns.insert(columns.end(), by_e.begin(), by_e.end());
   const double squares = dot(f, f), left = freedom - 2;
-  const std::size_t q = columns.size() / f.size(), own = q - 2;
   Triangles all(1, q, 0);
   all.add(0, f, columns);
   if (!(all.smallest_sine() > 1e-6)) return {run, 1, 0, 0, 0};
@@ -98,27 +101,27 @@ std::vector<double> cut_off(std::span<const double> f) {
 
 }  // namespace
 
-std::optional<Eccentricity> eccentricity_of(const Fitted& fit) {
+std::optional<Eccentricity> eccentricity_of(const Fitted& fit, const Matrix& Q) {
   if (!fit.is_roll() || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  const auto f_of = by_run(fit.minimum.f, fit.model->rows());
-  fit.system().evaluate(fit.minimum.theta,
-                        [&](std::size_t r, std::span<double>, std::span<double> J) {
+  const std::vector<std::size_t> rows = fit.model->rows();
+  const auto f_of = by_run(fit.minimum.f, rows);
+  const auto Q_of = rows_by_run(Q, rows);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::vector<double> f = cut_off(f_of[r]);
-    const double freedom =
-        static_cast<double>(f.size()) - static_cast<double>(fit.parameters().columns());
-    if (!(freedom > 2 && dot(f, f) > 0)) return;
+    const double freedom = static_cast<double>(rows[r]) - static_cast<double>(Q.size());
+    if (!(freedom > 2 && dot(f, f) > 0)) continue;
     const ObservedRun& run = fit.model->runs()[r];
     const Path path = path_of(run, fit.model->roll(fit.minimum.theta, r));
-    if (!shows_a_turn(run, path, f.size())) return;
+    if (!shows_a_turn(run, path, f.size())) continue;
     const auto signal = [&](double stretch) {
-      return amplitude(fit, r, path, stretch * run.body.R, freedom, f, J);
+      return amplitude(fit, r, path, stretch * run.body.R, freedom, f, Q_of[r]);
     };
     Eccentricity once_a_turn = signal(1);
-    once_a_turn.p *= static_cast<double>(fit.model->runs().size());
-    if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) return;
+    once_a_turn.p *= static_cast<double>(rows.size());
+    if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
     if (once_a_turn.p < std::min(signal(0.7).p, signal(1.4).p)) found = once_a_turn;
-  });
+  }
   return found;
 }
 

@@ -83,21 +83,25 @@ OffReadings around(const Fitted& fit, const Matrix& Q) {
   return found;
 }
 
-/// Around the roll of this theta, which is that of a robust fit: single readings have no share in
-/// it.
+/// Of these rows around a robust roll: single readings have no share in it.
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system(), theta);
   return around(fit, {});
 }
 
+bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left() > 0; }
+
 }  // namespace
 
-OffReadings off_readings(const Fitted& fit, bool robust) {
-  if (!fit.is_roll() || fit.degrees_left() == 0) return {};
-  if (robust) return around_robust(fit, fit.minimum.theta);
+OffReadings off_readings_of_robust(const Fitted& fit) {
+  return has_readings(fit) ? around_robust(fit, fit.minimum.theta) : OffReadings{};
+}
+
+OffReadings off_readings(const Fitted& fit, const Matrix& Q) {
+  if (!has_readings(fit)) return {};
   // In long runs no single reading has a share in the fit.
   const bool few = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
-  const OffReadings found = around(fit, few ? orthonormal(fit.system(), fit.minimum) : Matrix());
+  const OffReadings found = around(fit, few ? Q : Matrix());
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.

@@ -76,12 +76,12 @@ std::vector<double> left_of(const Matrix& Q, std::size_t n) {
 
 }  // namespace
 
-SeenNoise seen_noise(const Fitted& fit) {
+SeenNoise seen_noise(const Fitted& fit, Matrix Q) {
   if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
   SeenNoise seen{.freedom = fit.degrees_left()};
   seen.e = seen.innovations = f, seen.sources = seen.runs = fit.model->rows();
-  seen.B = orthonormal(fit.system(), fit.minimum);
+  seen.B = std::move(Q);
   if (fit.noise->from_sources_alone()) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
     Matrix few;
@@ -161,9 +161,9 @@ double variance_of_rounding(const Fitted& fit) {
              : 0;
 }
 
-Uncertainty uncertainty_of(const Fitted& fit) {
+Uncertainty uncertainty_of(const Fitted& fit, Matrix Q) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const SeenNoise seen = seen_noise(fit);
+  const SeenNoise seen = seen_noise(fit, std::move(Q));
   const auto with = [&](Errors kind, double whiteness, double variance) {
     const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
     return Uncertainty{

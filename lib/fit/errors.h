@@ -15,16 +15,23 @@ struct Uncertainty {
   Matrix covariance;  ///< of Fitted::numbers(); 0 for one that is fixed
 };
 
-/// The noise that the residuals of a fit show; of a log-log line behind known filters, that of the
-/// roll that made its rows.
-SeenNoise seen_noise(const Fitted&);
+/// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
+/// rows of Q.
+Matrix orthonormal(const System&, const Minimum&);
+
+/// The noise that the residuals of a fit with this Q show; of a log-log line behind known filters,
+/// that of the roll that made its rows.
+SeenNoise seen_noise(const Fitted&, Matrix Q);
 
 /// The covariance of a fit, R^-1 M R^-T with the meat M of the sandwich. For known filters it is
 /// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for
 /// known filters the noise of the raw column). If it is not white (Ljung and Box), the covariance
 /// is that of Newey and West, already at 10 % if neighbouring residuals are positively correlated;
 /// otherwise, if the variance is uneven at 1 %, along the runs or between them, it is HC3.
-Uncertainty uncertainty_of(const Fitted&);
+Uncertainty uncertainty_of(const Fitted&, Matrix Q);
+inline Uncertainty uncertainty_of(const Fitted& fit) {
+  return uncertainty_of(fit, orthonormal(fit.system(), fit.minimum));
+}
 
 /// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
 /// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
@@ -34,10 +41,6 @@ double variance_of_rounding(const Fitted&);
 /// The correlations of the first n numbers; 0 where a variance is 0, as that of a number that is
 /// fixed.
 Matrix correlations_of(const Matrix& covariance, std::size_t n);
-
-/// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
-/// rows of Q.
-Matrix orthonormal(const System&, const Minimum&);
 
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean

@@ -150,10 +150,11 @@ void require_roll(const Fitted& found) {
 
 FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
-  Uncertainty noise = uncertainty_of(found);
-  const auto eccentricity = eccentricity_of(found);
+  Matrix Q = orthonormal(found.system(), found.minimum);
+  const auto eccentricity = eccentricity_of(found, Q);
   OffReadings off{};  // --robust lets them count little
-  if (!options.robust) off = off_readings(found);
+  if (!options.robust) off = off_readings(found, Q);
+  Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
@@ -174,6 +175,14 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   return result;
 }
 
+/// The readings that are off the robust roll; none where there is no robust roll either.
+OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOptions options) try {
+  options.robust = true;
+  return off_readings_of_robust(fit_route(route, runs, options));
+} catch (const Error&) {
+  return {};
+}
+
 }  // namespace
 
 FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
@@ -182,13 +191,7 @@ FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& op
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of single readings
     if (options.robust) throw;
-    FitOptions robust = options;
-    robust.robust = true;
-    OffReadings off{};
-    try {
-      off = off_readings(fit_route(route, runs, robust), true);
-    } catch (const Error&) {  // they are not fitted so either
-    }
+    const OffReadings off = off_robust_roll(route, runs, options);
     if (off.count == 0 || off.count > single) throw;
     fail(
         "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others: "

@@ -130,7 +130,7 @@ std::optional<Fitted> known_roll(const std::vector<FitRun>& runs, const FitOptio
   try {
     Fitted roll = fit_rolls(Route::shift, runs, usable(Route::shift, runs), responses, options);
     if (!roll.noise->from_sources_alone()) return {};
-    roll.noise_of_roll = seen_noise(roll);
+    roll.noise_of_roll = seen_noise(roll, orthonormal(roll.system(), roll.minimum));
     roll.noise = {};
     return roll;
   } catch (const Error&) {

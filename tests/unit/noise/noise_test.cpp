@@ -39,11 +39,12 @@ TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
                  .model = std::make_shared<const Model>(std::vector{run},
                                                         Parameters({}, 1).with(laws()[2], 1, 1))};
       fit.minimum = minimise(fit.system(), {0, 0});
-      const SeenNoise seen = seen_noise(fit);
+      const Matrix Q = orthonormal(fit.system(), fit.minimum);
+      const SeenNoise seen = seen_noise(fit, Q);
       variances += seen.variance / runs;
       squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
       if (k > 0) continue;
-      const std::vector<double> B = noise->to_sources(orthonormal(fit.system(), fit.minimum)[1]);
+      const std::vector<double> B = noise->to_sources(Q[1]);
       std::vector<double> slope{0, 1};
       fit.minimum.R.solve_transposed(0, slope);
       REQUIRE(B.size() == noise->sources()[0]);
