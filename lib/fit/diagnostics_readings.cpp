@@ -21,15 +21,25 @@
 namespace rolling {
 namespace {
 
-/// `left` is 1 - leverage: without reading i, the squares of the residuals are less by e^2/left.
-/// The time is the number of the reading here. Where no reading counts as off, the distance is that
-/// of the one that is furthest off.
-OffReadings of_run(std::span<const double> e, std::span<const double> left, double freedom) {
+/// The roll from which readings are off: the least-squares one of all of them, or a robust one, in
+/// which those that are off have no share.
+enum class Of { all, others };
+
+/// `left` is 1 - leverage. Without reading i the squares of the residuals of all are less by
+/// e^2/left, and that is the square of its distance, too. Those of a robust roll are less by e^2;
+/// the variance of what it predicts for the reading is 1/left of the noise's. The time is the
+/// number of the reading here. Where no reading counts as off, the distance is that of the one that
+/// is furthest off.
+OffReadings of_run(std::span<const double> e, std::span<const double> left, double freedom,
+                   Of roll) {
   OffReadings found{};
   const std::size_t n = e.size(), most = std::min<std::size_t>(n / 10 + 1, 100), runs[] = {n};
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto squared = [&](std::size_t i) { return e[i] * e[i] / left[i]; };
+  const auto lost = [&](std::size_t i) { return e[i] * e[i] / (roll == Of::others ? 1 : left[i]); };
+  const auto squared = [&](std::size_t i) {
+    return roll == Of::others ? e[i] * e[i] * left[i] : lost(i);
+  };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
                     [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
@@ -38,7 +48,7 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
   for (std::size_t out = 0; out < most && --freedom >= 12;) {
     const std::size_t i = order[out];
     const double off = squared(i);
-    squares -= off, others[i] = 0;
+    squares -= lost(i), others[i] = 0;
     if (out++ == 0) first = off;
     const double size = squares > 1e-12 * off ? std::sqrt(off / squares * freedom) : 0;
     if (found.count == 0) found.distance = std::max(found.distance, size);
@@ -56,7 +66,7 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
 }
 
 /// Q: the columns that the fit follows.
-OffReadings around(const Fitted& fit, const Matrix& Q) {
+OffReadings around(const Fitted& fit, const Matrix& Q, Of roll) {
   const bool known = fit.noise->known();
   const auto sizes = known ? fit.noise->sources() : fit.model->rows();
   const auto raw = [&](const std::vector<double>& x) {
@@ -73,7 +83,7 @@ OffReadings around(const Fitted& fit, const Matrix& Q) {
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
-    OffReadings off = of_run(e_of[r], left_of[r], freedom);
+    OffReadings off = of_run(e_of[r], left_of[r], freedom, roll);
     if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model->runs()[r];
     off.run = r;
@@ -83,13 +93,16 @@ OffReadings around(const Fitted& fit, const Matrix& Q) {
   return found;
 }
 
-/// Of these rows around a robust roll: single readings have no share in it.
+bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left() > 0; }
+
+/// In long runs no single reading has a share in the fit: Q then is not needed.
+bool is_short(const Fitted& fit) { return fit.minimum.f.size() <= 1000 * fit.model->runs().size(); }
+
+/// Around the roll of this theta.
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system(), theta);
-  return around(fit, {});
+  return around(fit, is_short(fit) ? orthonormal(fit.system(), fit.minimum) : Matrix(), Of::others);
 }
-
-bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left() > 0; }
 
 }  // namespace
 
@@ -99,9 +112,7 @@ OffReadings off_readings_of_robust(const Fitted& fit) {
 
 OffReadings off_readings(const Fitted& fit, const Matrix& Q) {
   if (!has_readings(fit)) return {};
-  // In long runs no single reading has a share in the fit.
-  const bool few = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
-  const OffReadings found = around(fit, few ? Q : Matrix());
+  const OffReadings found = around(fit, is_short(fit) ? Q : Matrix(), Of::all);
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.
