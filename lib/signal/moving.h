@@ -59,12 +59,12 @@ class ExactSum {
       if (y != 0) at[left] = y;
     }
     double over(std::size_t n) const {
-      DoubleDouble sum;
-      for (std::size_t i = size; i-- > 0;) {
-        const DoubleDouble next = two_sum(sum.hi, at[i]);
+      DoubleDouble sum = size > 0 ? at[size - 1] : 0;
+      for (std::size_t i = size; i-- > 1;) {
+        const DoubleDouble next = quick_two_sum(sum.hi, at[i - 1]);
         sum = {next.hi, sum.lo + next.lo};
       }
-      sum = two_sum(sum.hi, sum.lo);
+      sum = quick_two_sum(sum.hi, sum.lo);
       // The rounding error of the quotient is corrected; the correction is so small that the
       // rounding of 1/n does not matter.
       const double count = static_cast<double>(n), inverse = 1 / count, quotient = sum.hi * inverse;
