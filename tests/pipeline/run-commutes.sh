@@ -26,6 +26,7 @@ make_file() {
       if (form == 2) printf "## run roll %d\n# remark\n%s", 4 - r, (r == 1 ? "# t[s]\tv[km/h]\n" : "")
       if (form == 3 && r == 1) print "t;v"
       if (form == 4 && r == 1) print "Zeit (s),Tempo (km/h)"
+      if (form == 5) print (r == 2 ? "# t[s]\tload" : "# t[s]\tv[m/s]")  # the second lacks v
       for (i = 0; i < 5; i++) printf "%d%s%g\n", i, (form == 3 ? ";" : form == 4 ? "," : "\t"), 9 * r - i / r
     }
     if (form > 0) print "# behind them"
@@ -44,7 +45,7 @@ same() {  # LEFT RIGHT: two pipelines print the same and end with the same statu
 }
 
 worked=0
-for form in 0 1 2 3 4; do
+for form in 0 1 2 3 4 5; do
   for many in 1 3; do
     make_file $form $many >a.csv
     make_file $form 2 >'b 5'

@@ -39,6 +39,17 @@ TEST_CASE("dialect: the form is the first of tab ; , outside quotes, else blanks
   CHECK(chosen("") == "no number: ");
 }
 
+TEST_CASE("dialect: a choice forgets what the lines before it have shown", "[text]") {
+  Dialect dialect;
+  REQUIRE(dialect.choose("1.5;2.5"));
+  dialect.want(0);
+  CHECK(dialect.split("1.5;2.5")[0].number == 1.5);
+  REQUIRE(dialect.choose("0,5;1,5"));
+  const auto fields = dialect.split("0,5;1,5");  // both decimal marks in one file are refused
+  CHECK(fields[0].text == "0.5");
+  CHECK(std::isnan(fields[0].number));  // not wanted any more
+}
+
 TEST_CASE("dialect: decimal commas and U+2212 are read where they leave no doubt", "[text]") {
   Dialect semicolon;
   REQUIRE(semicolon.choose("0,5;1"));
