@@ -95,3 +95,20 @@ TEST_CASE("cusps: a roll whose shift is just within the radius keeps its minimum
   CHECK(found.coefficients[0].value == Approx(D).epsilon(1e-6));
   CHECK(std::abs(found.coefficients[1].value) < 1e-6);
 }
+
+TEST_CASE("rolls: the squares of a joint fit of shifts are those of all runs", "[fit]") {
+  const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
+  simulated::Noise noise(5);
+  std::vector<double> t, v;
+  for (int i = 0; i < 60; ++i) {
+    t.push_back(0.04 * i);
+    v.push_back(truth.v(t.back()) + noise(1e-3));
+  }
+  const FitRun run = simulated::shifts(cylinder, t, v, 5);
+  const FitResult one = fit(Route::shift, {run}, {}), both = fit(Route::shift, {run, run}, {});
+  const auto squares = [](const FitResult& r, double parameters) {
+    return r.rms * r.rms * (static_cast<double>(r.n) - parameters);
+  };
+  // a, b and v0 of each run
+  CHECK(std::abs(squares(both, 4) / squares(one, 3) - 2) < 1e-9);
+}

@@ -47,6 +47,9 @@ TEST_CASE("layout: runs side by side, grouped by run, by quantity, with a shared
   CHECK(layout({"Data Set 1:Time(s)", "Data Set 1:x", "Data Set 2:x", "Data Set 2:Time(s)"}) ==
         "t[s] x 1:01 x t[s] 2:23 ");
   CHECK(layout({"t", "v", "t", "v", "room"}) == "t v room :014 :234 ");
+  // What is of another run keeps that in its name.
+  CHECK(layout({"t Run 1", "v Run 1", "t Run 2", "v Run 2", "Load Run 9"}) ==
+        "t v Load_Run_9 1:014 2:234 ");
 }
 
 TEST_CASE("layout: of several times, a quantity goes with one that is its own", "[text]") {
