@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the residuals of a fit show beside the law: an eccentric body, by a signal of period one
 // turn; single readings far off the motion; a body that does not roll freely from the first row on.
-// Q is orthonormal() of the fit: what the fit can follow.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,7 @@ namespace rolling {
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
 /// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the
 /// speed were steady in a turn) and through the filters of the data, and made orthogonal to the
-/// columns of Q, because the fit can follow those. The noise before the filters is
+/// columns of Q (errors.h), because the fit can follow those. The noise before the filters is
 /// assumed white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's
@@ -38,7 +37,7 @@ double few_reversals(const Fitted&);
 /// the readings are compared with the robust roll, since such readings bend the other. For known
 /// filters the readings are those of the raw column. Returns the reading that is furthest off, of
 /// the run where that is most; the count is 0 where none is.
-OffReadings off_readings(const Fitted&, const Matrix& Q);
+OffReadings off_readings(const Fitted&);
 /// The same of a fit that is robust itself.
 OffReadings off_readings_of_robust(const Fitted&);
 

@@ -21,8 +21,7 @@
 namespace rolling {
 namespace {
 
-/// The roll from which readings are off: the least-squares one of all of them, or a robust one, in
-/// which those that are off have no share.
+/// The roll from which readings are off: that of all, or a robust one, which is that of the others.
 enum class Of { all, others };
 
 /// `left` is 1 - leverage. Without reading i the squares of the residuals of all are less by
@@ -65,8 +64,9 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
   return found;
 }
 
-/// Q: the columns that the fit follows.
-OffReadings around(const Fitted& fit, const Matrix& Q, Of roll) {
+/// Around the roll of this fit. In long runs no single reading has a share in it.
+OffReadings around(const Fitted& fit, Of roll) {
+  const bool is_short = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
   const bool known = fit.noise->known();
   const auto sizes = known ? fit.noise->sources() : fit.model->rows();
   const auto raw = [&](const std::vector<double>& x) {
@@ -74,7 +74,7 @@ OffReadings around(const Fitted& fit, const Matrix& Q, Of roll) {
   };
   const std::vector<double> e = raw(fit.minimum.f);
   std::vector<double> left(e.size(), 1);
-  for (const std::vector<double>& column : Q)
+  for (const auto& column : is_short ? orthonormal(fit.system(), fit.minimum) : Matrix())
     std::ranges::transform(left, raw(column), left.begin(),
                            [](double all, double q) { return std::max(all - q * q, 1e-3); });
   OffReadings found{};
@@ -95,13 +95,9 @@ OffReadings around(const Fitted& fit, const Matrix& Q, Of roll) {
 
 bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left() > 0; }
 
-/// In long runs no single reading has a share in the fit: Q then is not needed.
-bool is_short(const Fitted& fit) { return fit.minimum.f.size() <= 1000 * fit.model->runs().size(); }
-
-/// Around the roll of this theta.
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system(), theta);
-  return around(fit, is_short(fit) ? orthonormal(fit.system(), fit.minimum) : Matrix(), Of::others);
+  return around(fit, Of::others);
 }
 
 }  // namespace
@@ -110,9 +106,9 @@ OffReadings off_readings_of_robust(const Fitted& fit) {
   return has_readings(fit) ? around_robust(fit, fit.minimum.theta) : OffReadings{};
 }
 
-OffReadings off_readings(const Fitted& fit, const Matrix& Q) {
+OffReadings off_readings(const Fitted& fit) {
   if (!has_readings(fit)) return {};
-  const OffReadings found = around(fit, is_short(fit) ? Q : Matrix(), Of::all);
+  const OffReadings found = around(fit, Of::all);
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.

@@ -153,7 +153,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
   OffReadings off{};  // --robust lets them count little
-  if (!options.robust) off = off_readings(found, Q);
+  if (!options.robust) off = off_readings(found);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};

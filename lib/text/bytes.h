@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <cstring>
 
 namespace rolling {
 
@@ -18,11 +17,6 @@ inline char* space(Bytes& text, std::size_t count) {
 }
 inline void set_end(Bytes& text, const char* end) {
   text.resize(static_cast<std::size_t>(end - text.data()));
-}
-
-inline void erase_front(Bytes& text, std::size_t count) {
-  std::memmove(text.data(), text.data() + count, text.size() - count);
-  text.resize(text.size() - count);
 }
 
 }  // namespace rolling

@@ -90,7 +90,7 @@ bool Lines::fill() {
   if (size >= longest_line)
     fail<InputError>("{}:{}: a line of more than {} bytes", name_, count_ + 1, longest_line);
   if (kept_ != buffer_.data())
-    erase_front(buffer_, static_cast<std::size_t>(kept_ - buffer_.data()));
+    set_end(buffer_, std::copy(kept_, std::as_const(buffer_).end(), buffer_.data()));
   char* const to = space(buffer_, block);
   const ssize_t count = read_some(fd_, to, std::min(block, longest_line - size));
   kept_ = buffer_.data(), at_ = to - size, end_ = to;
