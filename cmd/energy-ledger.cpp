@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass", "radius", "shape-factor"});
-    // A ledger has no use for them: shifts of a body with the same values are of this body.
+    // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
     for (const UncertainNumber& number : uncertain_numbers) task.body.*number.sigma = 0;
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||

@@ -179,7 +179,7 @@ class RowWriter {
 
   void write(double t, Motion& motion) {
     motion.seek(t - task_.t0);
-    // Computed before any is written: a tenth faster than one by one. 0 + -0 is 0.
+    // Computed before any is written: a tenth faster than one by one. `0 +` makes -0 a 0.
     for (std::size_t i = 0; i < row_.size(); ++i)
       numbers_[i] = 0 + task_.way * row_[i].of(task_.way * t, motion);
     for (const double number : numbers_) out_.cell(number);

@@ -34,7 +34,7 @@ double few_reversals(const Fitted&);
 /// one after another the reading with the largest residual, studentised by its leverage, is left
 /// out of the variance, up to a tenth of the run, and those up to the last that is so far off count
 /// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off,
-/// the readings are compared with the robust roll, since such readings bend the other. For known
+/// the readings are compared with the robust roll, since they bend the least-squares one. For known
 /// filters the readings are those of the raw column. Returns the reading that is furthest off, of
 /// the run where that is most; the count is 0 where none is.
 OffReadings off_readings(const Fitted&);

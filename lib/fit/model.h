@@ -56,7 +56,6 @@ class Parameters {
   Parameters with(const LawForm& form, double D_unit, double v_unit) const {
     Parameters other = *this;
     other.form_ = &form, other.D_unit_ = D_unit, other.v_unit_ = v_unit;
-    other.logarithm_ = &form == &laws().front();
     other.a_.reset(), other.b_.reset();
     return other;
   }
@@ -80,7 +79,7 @@ class Parameters {
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
       c[j] = j == 0 && a_ ? 0 : j == 1 && b_ ? *b_ : *from++;
     if (a_) c[0] = *a_ * std::pow(v_unit_, c[1]) / D_unit_;
-    else if (logarithm_) c[0] = std::exp(c[0]);
+    else if (logarithm()) c[0] = std::exp(c[0]);
     return {*form_, c, D_unit_, v_unit_};
   }
   double v0(const std::vector<double>& theta, std::size_t run) const {
@@ -136,18 +135,18 @@ class Parameters {
     if (free_x0()) put(by.x0 * x_ref_);
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
       if (fixed(j)) continue;
-      put(j == 0 && logarithm_ ? c0 * by.by_c[0]
-          : j == 1 && a_       ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
-                               : by.by_c[j]);
+      put(j == 0 && logarithm() ? c0 * by.by_c[0]
+          : j == 1 && a_        ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
+                                : by.by_c[j]);
     }
     if (slope_) put(by.slope * slope_unit);
   }
 
  private:
   bool free_x0() const { return position_ && !x0_; }
+  bool logarithm() const { return form_ == &laws().front(); }
 
   const LawForm* form_ = &laws().front();
-  bool logarithm_ = true;  // c0 is a logarithm in theta
   std::optional<double> a_, b_, v0_, x0_;
   bool slope_ = false, position_ = false;
   std::size_t runs_ = 0;
