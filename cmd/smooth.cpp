@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
     select.width = options.width;
     const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method"),
-               selects = !select.all() && !smooths;  // and changes no number
+               all = select.all(), selects = !all && !smooths;  // and changes no number
     if (selects) options.width.samples = 1;
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
       };
       while (filter.next()) {
         first = std::min(first, filter[t]), last = std::max(last, filter[t]);
-        if (select.all()) filter.put(smoother->push(filter[t], filter[y]));
+        if (all) filter.put(smoother->push(filter[t], filter[y]));
         else take(selection.push(filter[t], filter[y]));
       }
       take(selection.finish());

@@ -30,7 +30,7 @@ class ExactSum {
   /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
   /// 2^30.
   double over(std::size_t n) const {
-    if (large_.size == 0) return negative_zeros_ == n ? -0.0 : parts_.over(n);
+    if (large_.is_zero()) return negative_zeros_ == n ? -0.0 : parts_.over(n);
     // What 2^-100 takes from the other parts matters only where the large ones have cancelled.
     const bool is_large = std::abs(large_.at[large_.size - 1]) >= 0x1p900;
     Parts sum = is_large ? large_ : parts_;
@@ -41,27 +41,31 @@ class ExactSum {
   }
 
  private:
-  /// Doubles whose digits do not overlap, the smallest first; their sum is exact (Shewchuk 1997,
-  /// Discrete Comput. Geom. 18, 305).
+  /// Doubles whose digits do not overlap, the smallest first, each of the last two perhaps 0; their
+  /// sum is exact (Shewchuk 1997, Discrete Comput. Geom. 18, 305). A column rarely needs a third.
   struct Parts {
-    std::size_t size = 0;
+    std::size_t size = 2;
     std::vector<double> at = std::vector<double>(4);  // with room behind them
 
     void add(double y) {
+      if (size == at.size()) at.resize(2 * size);
       std::size_t left = 0;
-      for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t i = 0; i + 1 < size; ++i) {
         const DoubleDouble sum = two_sum(y, at[i]);
-        if (sum.lo != 0) at[left++] = sum.lo;
+        at[left] = sum.lo;
+        left += sum.lo != 0;
         y = sum.hi;
       }
-      size = y == 0 ? left : left + 1;
-      if (size > at.size()) at.resize(2 * size);
-      if (y != 0) at[left] = y;
+      const DoubleDouble sum = two_sum(y, at[size - 1]);
+      at[left] = sum.lo;
+      at[left + 1] = sum.hi;
+      size = left + 2;
     }
+    bool is_zero() const { return size == 2 && at[0] == 0 && at[1] == 0; }
     double over(std::size_t n) const {
-      DoubleDouble sum = size > 0 ? at[size - 1] : 0;
-      for (std::size_t i = size; i-- > 1;) {
-        const DoubleDouble next = quick_two_sum(sum.hi, at[i - 1]);
+      DoubleDouble sum = quick_two_sum(at[size - 1], at[size - 2]);
+      for (std::size_t i = size - 2; i-- > 0;) {
+        const DoubleDouble next = quick_two_sum(sum.hi, at[i]);
         sum = {next.hi, sum.lo + next.lo};
       }
       sum = quick_two_sum(sum.hi, sum.lo);

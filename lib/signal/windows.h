@@ -113,8 +113,10 @@ class Sliding {
   /// Of the present window: each reading that has entered is added, each that has left subtracted.
   const Held& of(const Windows& window) {
     const auto y = [&](std::size_t i) { return window.sample(i).y; };
-    if (begin_ + 1 == window.begin() && end_ + 1 == window.end())
+    if (begin_ + 1 == window.begin() && end_ + 1 == window.end()) {
       held_.exchange(y(end_++), y(begin_++));
+      return held_;
+    }
     while (begin_ > window.begin()) held_.add(y(--begin_));
     while (end_ < window.end()) held_.add(y(end_++));
     while (begin_ < window.begin()) held_.subtract(y(begin_++));

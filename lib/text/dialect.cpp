@@ -57,6 +57,11 @@ const char* skip_plain(const char* at, const char* end) {
   return at;
 }
 
+const char* skip_blanks(const char* at, const char* end) {
+  while (at != end && is_blank(*at)) ++at;
+  return at;
+}
+
 /// Reads the number of the field if it is wanted, else skips plain text; returns the end of either.
 const char* read_plain(const char* at, const char* end, Field& field) {
   return field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
@@ -136,7 +141,7 @@ std::span<const Field> Dialect::split(std::string_view line) {
 }
 
 const char* Dialect::split_plain(std::string_view text, std::span<const Field>& fields) {
-  if (separator_ == '\0' || (allows_foreign() && decimal_mark_ == '\0')) return nullptr;
+  if (allows_foreign() && decimal_mark_ == '\0') return nullptr;
   return decimal_mark_ == ',' ? split_with_commas(text, fields) : split_with_points(text, fields);
 }
 
@@ -157,19 +162,26 @@ const char* Dialect::split_with_commas(std::string_view text, std::span<const Fi
 
 const char* Dialect::split_with_points(std::string_view text, std::span<const Field>& fields) {
   const char *at = text.data(), *const end = at + text.size();
-  as_it_stands_ = separator_ == '\t';
+  const bool blanks = separator_ == '\0';
+  const char separator = blanks ? ' ' : separator_;
+  as_it_stands_ = separator == '\t';
   may_need_quotes_ = false;
-  for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field, ++at) {
-    const bool quoted = at != end && *at == quote;
-    const char* const first = at += quoted;
+  for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field) {
+    if (blanks) at = skip_blanks(at, end);
+    const char* first = at;
     at = read_plain(first, end, *field);
-    field->text = {first, at};
-    if (at == first || at == end) return nullptr;
+    const bool quoted = at == first && at != end && *at == quote && !blanks;
     if (quoted) {
       as_it_stands_ = false;
-      if (*at++ != quote || at == end) return nullptr;
+      at = read_plain(++first, end, *field);
     }
-    if (*at == separator_) continue;
+    field->text = {first, at};
+    if (at == first || at == end) return nullptr;
+    if (quoted && (*at++ != quote || at == end)) return nullptr;
+    if (*at == separator) {
+      ++at;
+      continue;
+    }
     if (*at != '\n' && (*at != '\r' || end - at < 2 || at[1] != '\n')) return nullptr;
     fields = {fields_.data(), field + 1};
     return at;
@@ -179,7 +191,7 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
 
 void Dialect::split_blanks(const char* at, const char* end) {
   for (;;) {
-    while (at != end && is_blank(*at)) ++at;
+    at = skip_blanks(at, end);
     if (at == end) return;
     Field& field = next_field();
     const char* const first = at;

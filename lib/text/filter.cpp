@@ -40,15 +40,8 @@ std::vector<Column> Filter::columns() const {
   return all;
 }
 
-/// Where the text of the next line goes. A block is never moved: many lines may wait.
-Bytes& Filter::block() {
-  constexpr std::size_t full = 1 << 14;
-  if (texts_.empty() || texts_.back().size() > full) texts_.emplace_back().reserve(2 * full);
-  return texts_.back();
-}
-
 void Filter::hold(std::string_view text, Kind kind) {
-  block().append(text);
+  texts_.append(text);
   lines_.push_back({static_cast<std::uint32_t>(text.size()), 0, kind});
 }
 
@@ -79,9 +72,8 @@ bool Filter::next() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;
-  Bytes& texts = block();
-  const std::size_t begin = texts.size(), place = in_.append_text(texts, cut_);
-  lines_.push_back({static_cast<std::uint32_t>(texts.size() - begin),
+  const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
+  lines_.push_back({static_cast<std::uint32_t>(texts_.size() - begin),
                     static_cast<std::uint32_t>(place), Kind::row});
   ++read_;
   return true;
@@ -128,7 +120,7 @@ void Filter::write_rows() {
   std::span<const double> numbers(numbers_);
   for (; first_ < lines_.size(); ++first_) {
     const Line& line = lines_[first_];
-    const std::string_view text(texts_.front().data() + front_, line.size);
+    const std::string_view text(texts_.data() + front_, line.size);
     if (line.kind == Kind::names) {
       std::erase_if(comments_, is_history);
       names_ = text;
@@ -147,15 +139,14 @@ void Filter::write_rows() {
       ++done_;
     }
     front_ += line.size;
-    if (front_ < texts_.front().size()) continue;
-    front_ = 0;
-    if (texts_.size() > 1) texts_.pop_front();
-    else texts_.front().clear();
   }
   numbers_.erase(numbers_.begin(), numbers_.end() - static_cast<std::ptrdiff_t>(numbers.size()));
-  if (2 * first_ >= lines_.size())  // amortised, each line is moved at most once
+  if (2 * first_ >= lines_.size()) {  // amortised, each line is moved at most once
     lines_.erase(lines_.begin(),
                  lines_.begin() + static_cast<std::ptrdiff_t>(std::exchange(first_, 0)));
+    set_end(texts_,
+            std::copy(texts_.data() + std::exchange(front_, 0), texts_.end(), texts_.data()));
+  }
   writing_ = false;
 }
 

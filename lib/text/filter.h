@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <queue>
 #include <span>
@@ -73,7 +72,6 @@ class Filter {
 
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   std::vector<Column> columns() const;
-  Bytes& block();
   void hold(std::string_view text, Kind);
   void take_comments(const std::vector<std::string>&);
   void write_rows();
@@ -88,8 +86,8 @@ class Filter {
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
   std::vector<Line> lines_;                   // those from first_ on are not written yet
-  std::deque<Bytes> texts_;                   // of these, one after the other, in blocks
-  std::size_t first_ = 0, front_ = 0;         // front_: where that of first_ begins in its block
+  Bytes texts_;                               // of these, one after the other
+  std::size_t first_ = 0, front_ = 0;         // front_: where the text of first_ begins
   std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
   std::vector<double> numbers_;               // of these rows, in order
   std::size_t enough_;                        // put() writes rows at this count of numbers

@@ -270,8 +270,6 @@ std::span<const Field> Reader::split() {
 bool Reader::take_fields() {
   const std::size_t width = head_.layout.width;
   const bool side_by_side = head_.layout.side_by_side();
-  fields_changed_ = side_by_side || fields_.size() != width;
-  if (!fields_changed_) return true;
   if (fields_.size() == width + 1 && fields_.back().text.empty()) fields_ = fields_.first(width);
   const std::size_t count = fields_.size();
   if (side_by_side ? count > width : count != width)
@@ -310,8 +308,9 @@ inline double Reader::read(const NeededColumns::Needed& needed) const {
 }
 
 /// Reads the needed numbers of the row; false if one is missing.
-bool Reader::take_row() {
-  if (!take_fields()) return false;
+inline bool Reader::take_row() {
+  fields_changed_ = fields_.size() != head_.layout.width || head_.layout.side_by_side();
+  if (fields_changed_ && !take_fields()) return false;
   double* to = values_.data();
   for (const NeededColumns::Needed& needed : needed_.all()) {
     *to = read(needed);

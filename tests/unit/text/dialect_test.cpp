@@ -195,11 +195,22 @@ TEST_CASE("dialect: a line of numbers and plain text is split before its end is 
   }
 }
 
-TEST_CASE(
-    "dialect: columns of blanks, and numbers whose decimal mark is not known yet, are not split "
-    "before their end is known",
-    "[text]") {
-  for (const char* line : {"1 2", "1;2", "1\t2"}) {
+TEST_CASE("dialect: a line of blanks between its fields is split before its end is known",
+          "[text]") {
+  Dialect dialect;
+  REQUIRE(dialect.choose("0.5 1 x"));
+  dialect.want(0);
+  for (const std::string line : {"-1.5 2e3 a.b", "  -1.5   2e3 \ta.b"})
+    CHECK(plain_fields(dialect, line + "\n", line.size()) == "<-1.5|-1.5><2e3|nan><a.b|nan>");
+  CHECK_FALSE(dialect.as_it_stands());
+  for (const char* odd : {"", " \n", "1 2 x \n", "1 2 x", "\"1\" 2 x\n", "1 \"2\" x\n", "1,5 2 x\n",
+                          "1 2 x y\n", "#1 2 x\n", "1 #2 x\n"})
+    CHECK(plain_fields(dialect, odd, 0) == "?");
+}
+
+TEST_CASE("dialect: a line whose decimal mark is not known yet is not split before its end is",
+          "[text]") {
+  for (const char* line : {"1;2", "1\t2"}) {
     Dialect dialect;
     REQUIRE(dialect.choose(line));
     dialect.want(0);
@@ -213,7 +224,7 @@ TEST_CASE("dialect: what is split before its end is known is split alike after i
     return (state = state * 1664525 + 1013904223) / 65536 % count;
   };
   const std::string_view alphabet = "0123456789019..,,-+eE\t\t\t;;; \"#x";
-  for (const std::string first : {"0.5\t1.5", "0,5\t1,5", "0,5;1,5"}) {
+  for (const std::string first : {"0.5\t1.5", "0,5\t1,5", "0,5;1,5", "0.5 1.5"}) {
     const bool points = first.find('.') != std::string::npos;
     int taken = 0;
     for (int i = 0; i < 100000; ++i) {
