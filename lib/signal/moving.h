@@ -30,7 +30,12 @@ class ExactSum {
   /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
   /// 2^30.
   double over(std::size_t n) const {
-    if (large_.is_zero()) return negative_zeros_ == n ? -0.0 : parts_.over(n);
+    if (!large_.is_zero()) return over_with_large(n);
+    return negative_zeros_ == n ? -0.0 : parts_.over(n);
+  }
+
+ private:
+  double over_with_large(std::size_t n) const {
     // What 2^-100 takes from the other parts matters only where the large ones have cancelled.
     const bool is_large = std::abs(large_.at[large_.size - 1]) >= 0x1p900;
     Parts sum = is_large ? large_ : parts_;
@@ -39,8 +44,6 @@ class ExactSum {
       sum.add(others.at[i] * (is_large ? 0x1p-100 : 0x1p100));
     return sum.over(n) * (is_large ? 0x1p100 : 1);
   }
-
- private:
   /// Doubles whose digits do not overlap, the smallest first, each of the last two perhaps 0; their
   /// sum is exact (Shewchuk 1997, Discrete Comput. Geom. 18, 305). A column rarely needs a third.
   struct Parts {
