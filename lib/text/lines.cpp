@@ -60,10 +60,7 @@ std::string_view only_cell(std::string_view line) {
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
 bool begins_with_error_value(std::string_view line) {
-  return std::any_of(error_values.begin(), error_values.end(), [line](std::string_view value) {
-    return line.starts_with(value) && (line.size() == value.size() || line[value.size()] == ' ' ||
-                                       is_separator(line[value.size()]));
-  });
+  return std::ranges::count(error_values, line.substr(0, line.find_first_of(filling))) > 0;
 }
 
 }  // namespace
