@@ -97,17 +97,16 @@ bool Lines::fill() {
   return count > 0;
 }
 
-/// Reads on until the end of the line at at_, whose line feed is not in memory yet, and returns it;
-/// null if there is no further line.
+/// The end of the line at at_, up to which it is read; null if there is no further line.
 const char* Lines::end_of_line() {
-  for (std::size_t searched = 0; !at_end_;) {
-    searched = static_cast<std::size_t>(end_ - at_);
+  for (std::size_t searched = 0;;) {
+    const std::size_t size = ahead().size();
+    if (const void* const feed = std::memchr(at_ + searched, '\n', size - searched))
+      return static_cast<const char*>(feed);
+    if (at_end_) return at_ == end_ ? nullptr : end_;
+    searched = size;
     at_end_ = !fill();
-    const void* const feed =
-        std::memchr(at_ + searched, '\n', static_cast<std::size_t>(end_ - at_) - searched);
-    if (feed) return static_cast<const char*>(feed);
   }
-  return at_ == end_ ? nullptr : end_;
 }
 
 bool Lines::next() {
@@ -121,11 +120,10 @@ bool Lines::next() {
 
 /// Goes to the next line of the file, whether a quoted field goes on in it or not.
 bool Lines::next_in_file() {
-  const char* feed =
-      static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
-  if (!feed && !(feed = end_of_line())) return false;
-  text_ = {at_, feed};
-  at_ = feed == end_ ? feed : feed + 1;
+  const char* const end = end_of_line();
+  if (!end) return false;
+  text_ = {at_, end};
+  at_ = end == end_ ? end : end + 1;
   if (text_.ends_with('\r')) text_.remove_suffix(1);
   ++count_;
   // Joined files have a byte order mark each, and one that has nothing else leaves two together.
