@@ -32,13 +32,13 @@ std::vector<Quantity<Function>> chosen(const std::string& list,
   std::vector<Quantity<Function>> chosen;
   for (const std::string& name : split_names(list, ',')) {
     const auto same = [&](const auto& quantity) { return quantity.name == name; };
-    const auto found = std::find_if(all, all + count, same);
-    if (found == all + count) {
+    const auto found = std::ranges::find_if(all, same);
+    if (found == std::end(all)) {
       std::string names;
       for (const auto& quantity : all) add_item(names, quantity.name);
       fail("--columns: '{}' is none of {}", shown(name), names);
     }
-    if (std::any_of(chosen.begin(), chosen.end(), same)) fail("--columns: {} is there twice", name);
+    if (std::ranges::any_of(chosen, same)) fail("--columns: {} is there twice", name);
     chosen.push_back(*found);
   }
   return chosen;

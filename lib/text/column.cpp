@@ -48,8 +48,7 @@ std::string take_run(std::string_view& name) {
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
 }
 
@@ -99,9 +98,8 @@ std::string to_text(const Column& column) {
 }
 
 std::string free_name(const std::vector<Column>& columns, std::string name) {
-  const auto taken = [&](const Column& column) { return column.name == name; };
   do name += "_in";
-  while (std::any_of(columns.begin(), columns.end(), taken));
+  while (std::ranges::count(columns, name, &Column::name) > 0);
   return name;
 }
 

@@ -45,9 +45,8 @@ Unquoted outside_quotes(std::string_view text, std::string_view between, bool wi
 }
 
 bool needs_quotes(std::string_view field) {
-  return field.starts_with('#') || std::any_of(field.begin(), field.end(), [](char c) {
-           return c == quote || c == '\t' || c == '\n';
-         });
+  return field.starts_with('#') ||
+         std::ranges::any_of(field, [](char c) { return c == quote || c == '\t' || c == '\n'; });
 }
 
 void append_field(Bytes& line, std::string_view field) {

@@ -71,30 +71,26 @@ const char* read_plain(const char* at, const char* end, Field& field) {
 
 bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
-  const auto first = std::find_if(separators.begin(), separators.end(),
-                                  [&](char separator) { return holds(outside, separator); });
+  const auto first = std::ranges::find_if(separators, [&](char c) { return holds(outside, c); });
   *this = Dialect();
   separator_ = first == separators.end() ? '\0' : *first;
   asks_ = allows_foreign();
   if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
-    const bool has_blanks = std::any_of(fields.begin(), fields.end(),
-                                        [](const Field& field) { return holds(field.text, ' '); });
+    const bool has_blanks =
+        std::ranges::any_of(fields, [](const Field& field) { return holds(field.text, ' '); });
     separator_ = '\0';  // where tabs and blanks both separate numbers, any blank separates
     const auto words = has_blanks ? split(line) : std::span<const Field>();
-    if (words.empty() || !std::all_of(words.begin(), words.end(),
-                                      [](const Field& word) { return is_number(word.text); }))
-      separator_ = '\t';
+    if (words.empty() || !std::ranges::all_of(words, is_number, &Field::text)) separator_ = '\t';
   }
   return holds_number(line);
 }
 
 bool Dialect::holds_number(std::string_view line) {
-  const auto fields = split(line);
   // A decimal comma counts here even between commas: the line is then refused as a row, with a
   // message that says what to do, and not taken for a header.
   // So does a number in quotes that are none here.
-  return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+  return std::ranges::any_of(split(line), [](const Field& field) {
     std::string_view bare = field.text;
     while (!bare.empty() && (bare.front() == quote || bare.front() == '\'')) bare.remove_prefix(1);
     while (!bare.empty() && (bare.back() == quote || bare.back() == '\'')) bare.remove_suffix(1);
@@ -149,14 +145,14 @@ const char* Dialect::split_plain(std::string_view text, std::span<const Field>& 
 const char* Dialect::split_with_commas(std::string_view text, std::span<const Field>& fields) {
   made_ = text.substr(0, text.find('\n') + 1);
   if (made_.find('.') != npos) return nullptr;
-  std::replace(made_.begin(), made_.end(), ',', '.');
+  std::ranges::replace(made_, ',', '.');
   const char* const end = split_with_points(made_, fields);
   as_it_stands_ = false;
   // A comma in a text is not a decimal one.
   const auto is_changed_text = [](const Field& field) {
     return !field.wanted && field.text.find('.') != npos && !is_number(field.text);
   };
-  if (!end || std::any_of(fields.begin(), fields.end(), is_changed_text)) return nullptr;
+  if (!end || std::ranges::any_of(fields, is_changed_text)) return nullptr;
   return text.data() + (end - made_.data());
 }
 

@@ -184,7 +184,7 @@ void refuse_two_readings(const std::string& line) {
   if (other == line || other.find(',') == std::string::npos) return;
   Dialect dialect;
   dialect.choose(other);
-  if (std::ranges::all_of(dialect.split(other), [](const Field& f) { return is_number(f.text); }))
+  if (std::ranges::all_of(dialect.split(other), is_number, &Field::text))
     fail(
         "'{}' can be read in two ways: if its commas without a blank are decimal ones, make them "
         "points first, else take the blanks away",

@@ -54,8 +54,7 @@ std::vector<std::string> NeededColumns::names_without_use(std::vector<std::strin
 }
 
 bool NeededColumns::use_has_numbers() const {
-  return std::any_of(use_.begin(), use_.end(),
-                     [](const auto& use) { return is_number(use.second.column); });
+  return std::ranges::any_of(use_, [](const auto& use) { return is_number(use.second.column); });
 }
 
 void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
@@ -252,7 +251,7 @@ void NeededColumns::name_columns() {
 }
 
 bool NeededColumns::renames() const {
-  return std::any_of(needed_.begin(), needed_.end(), [&](const Needed& needed) {
+  return std::ranges::any_of(needed_, [&](const Needed& needed) {
     return serves(needed) && as_read_[needed.column].name != needed.quantity;
   });
 }
