@@ -158,13 +158,6 @@ void add_unit(Column& column, std::string_view unit, std::string_view place) {
 
 namespace {
 
-/// The names in a line that is not a comment.
-std::vector<std::string> names_in(std::string_view line, char separator) {
-  auto names = split_names(line, separator);
-  if (separator && names.front().starts_with("# ")) names.front().erase(0, 2);  // quoted
-  return names;
-}
-
 /// Refuses a line that begins with a number and has another one, between other separators than
 /// those of the file: it is no heading, and the run would be lost.
 void refuse_other_separator(std::string_view line) {
@@ -287,8 +280,11 @@ class HeadReader {
 
   /// The names in a line above the row.
   std::vector<std::string> names_of(const Comment& line, const UnnamedColumns& columns) const {
-    return line.is_bare() ? names_in(line.text, dialect_.separator())
-                          : names_in_comment(line.text, columns).names;
+    if (!line.is_bare()) return names_in_comment(line.text, columns).names;
+    const char separator = dialect_.separator();
+    auto names = split_names(line.text, separator);
+    if (separator && names.front().starts_with("# ")) names.front().erase(0, 2);  // quoted
+    return names;
   }
 
   /// The header: the last line that is no comment, but for one of units; or a comment where there
