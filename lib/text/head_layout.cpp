@@ -59,14 +59,12 @@ Layout Layout::of(const std::vector<Column>& named, Sides sides) {
   const auto line = without_other_labels(named, labels);
   std::map<std::string, std::size_t> count, seen;  // of a name
   for (const Column& column : line) ++count[column.name];
-  const bool labelled = sides == Sides::by_names && labels.size() > 1,
-             counted = sides == Sides::by_names && labels.empty() && count["t"] > 1;
-  if (labelled || counted) refuse_unclear(line, count, labelled);
-  Layout layout{std::vector<Run>(labelled  ? labels.size()
-                                 : counted ? count["t"]
-                                           : 1),
-                line.size(), std::vector<bool>(line.size())};
-  const std::size_t all = layout.runs.size();
+  const std::size_t all = sides == Sides::one ? 1
+                          : labels.empty()    ? std::max<std::size_t>(count["t"], 1)
+                                              : labels.size();
+  const bool labelled = all > 1 && !labels.empty(), counted = all > 1 && labels.empty();
+  if (all > 1) refuse_unclear(line, count, labelled);
+  Layout layout{std::vector<Run>(all), line.size(), std::vector<bool>(line.size())};
   for (std::size_t r = 0; r < std::min(all, labels.size()); ++r) layout.runs[r].label = labels[r];
   for (std::size_t i = 0; i < line.size(); ++i) {
     const std::string& name = line[i].name;
