@@ -7,11 +7,6 @@
 #include "base/error.h"
 
 namespace rolling {
-namespace {
-
-bool is_history(std::string_view comment) { return comment.starts_with("##"); }
-
-}  // namespace
 
 Filter::Filter(Reader& in, Output& out, std::string history)
     : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history) + '\n'),

@@ -40,7 +40,7 @@ struct Comment {
   std::string text;  ///< with its marks; bare if it is no comment
   std::size_t line;  ///< its number in the file
 
-  bool is_history() const { return text.starts_with("##"); }
+  bool is_history() const { return rolling::is_history(text); }
   bool is_bare() const { return !text.starts_with('#'); }
 };
 

@@ -137,11 +137,10 @@ LineKind Lines::kind_of(std::string_view line) const {
   if (first == std::string_view::npos || line == "\x1A" || is_blank_row(line.substr(first)))
     return LineKind::blank;
   const bool is_field = separators_ == "\t" && line.find('\t') < first;  // a blank one before it
-  if (line[first] == quote && !is_field && only_cell(line).starts_with("##"))
-    return LineKind::history;
+  if (line[first] == quote && !is_field && is_history(only_cell(line))) return LineKind::history;
   if (line[first] != '#' || is_field) return LineKind::row;
   line.remove_prefix(first);
-  if (line.starts_with("##")) return LineKind::history;
+  if (is_history(line)) return LineKind::history;
   return begins_with_error_value(line) ? LineKind::row : LineKind::comment;
 }
 

@@ -14,6 +14,8 @@ namespace rolling {
 
 enum class LineKind { blank, comment, history, row };
 
+inline bool is_history(std::string_view line) { return line.starts_with("##"); }
+
 /// A `##` line without the quotes and separators that a spreadsheet has put around it, and with
 /// blanks where it has separators in their place.
 std::string history_line(std::string_view line);

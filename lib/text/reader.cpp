@@ -110,7 +110,7 @@ bool Reader::next_head() {
         fail<InputError>(
             "{}: the names of the columns stand behind the last row; put them above the first",
             lines_->name());
-      if (!comment.starts_with("##")) comments_.push_back(std::move(comment));
+      if (!is_history(comment)) comments_.push_back(std::move(comment));
     }
     file_open_ = false;
   }
@@ -176,7 +176,7 @@ void Reader::begin_run() {
     comments_.push_back("## " + place_);
   }
   for (const std::string& comment : head_.comments)
-    if (side_ == 0 || comment.starts_with("##")) comments_.push_back(comment);
+    if (side_ == 0 || is_history(comment)) comments_.push_back(comment);
   needed_.begin_run(layout().columns, head_.named, head_.said,
                     run_in_file_ > 1 || !head_.named
                         ? fmt::format("{}:{}", lines_->name(), head_.line)
