@@ -40,7 +40,7 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
     const std::string whole = text.substr(equals + 1);
     const Column column = read_column(whole);
     const std::string& name = column.run.empty() ? column.name : whole;
-    if (!use_.emplace(quantity, Use{name, column.unit}).second)
+    if (!use_.emplace(quantity, Column{name, column.unit}).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -48,13 +48,13 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
 std::vector<std::string> NeededColumns::names_without_use(std::vector<std::string> order) const {
   for (std::size_t i = 0; i < order.size(); ++i)
     if (const auto use = use_.find(order[i]);
-        use != use_.end() && use->second.column != fmt::format("{}", i + 1))
+        use != use_.end() && use->second.name != fmt::format("{}", i + 1))
       order.resize(i);
   return order;
 }
 
 bool NeededColumns::use_has_numbers() const {
-  return std::ranges::any_of(use_, [](const auto& use) { return is_number(use.second.column); });
+  return std::ranges::any_of(use_, [](const auto& use) { return is_number(use.second.name); });
 }
 
 void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
@@ -69,10 +69,10 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   for (const auto& [quantity, use] : use_)
     std::ranges::replace(served, quantity, free_name(as_read_, quantity));
   for (const auto& [quantity, use] : use_) {
-    const auto at = find(use.column);
+    const auto at = find(use.name);
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(use.column), shown(use.column), list());
+                       shown(use.name), shown(use.name), list());
     if (use_.contains(served[*at]))
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        served[*at], quantity);

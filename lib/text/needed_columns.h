@@ -67,9 +67,6 @@ class NeededColumns {
   const std::string& assumed() const { return assumed_; }
 
  private:
-  struct Use {
-    std::string column, unit;  // the column by its number or name, with the run that it carries
-  };
   void refuse(std::string_view name) const;
   bool may_be_time(std::size_t column) const;
   void serve_by_units();
@@ -80,7 +77,8 @@ class NeededColumns {
   Conversion conversion(const Needed&);
   void name_columns();
 
-  std::map<std::string, Use> use_;  // by quantity
+  // By quantity; the name is the number or the name of a column, with the run that it carries.
+  std::map<std::string, Column> use_;
   bool has_use_;
   std::vector<Needed> needed_;
   bool converts_ = false;
