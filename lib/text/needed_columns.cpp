@@ -98,8 +98,7 @@ void NeededColumns::serve_by_units() {
     if (quantity == "t" ? names("t") : names("x") || names("v")) continue;
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
-      if (!as_read_[i].unit.empty() && unit_of(quantity, as_read_[i].unit) &&
-          !known_quantity(quantities_[i]))
+      if (unit_of(quantity, as_read_[i].unit) && !known_quantity(quantities_[i]))
         found.push_back(i);
     if (found.size() == 1) quantities_[found.front()] = quantity;
   }
@@ -110,7 +109,7 @@ bool NeededColumns::may_be_time(std::size_t i) const {
   const Column& column = as_read_[i];
   return quantities_[i] == "t" ||
          (!known_quantity(quantities_[i]) && !column.name.ends_with("_in") &&
-          (says_time(column.name) || (!column.unit.empty() && unit_of("t", column.unit))));
+          (says_time(column.name) || unit_of("t", column.unit)));
 }
 
 /// Refuses t in `column` where another one may be it too.
