@@ -109,7 +109,7 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
   for (const FitOfRuns& fit : fits) {
     const bool without_errors = !fit.result || fit.result->errors == Errors::none;
     for (const auto& [column, value, is_count] : fit.result ? row_of(fit, with_slope) : blank)
-      if (std::isnan(value) && without_errors) out.blank();
+      if (std::isnan(value) && without_errors) out.cell("");
       else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
       else out.cell(value);
     if (with_run) out.cell(fit.runs.front().name);

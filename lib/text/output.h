@@ -46,8 +46,7 @@ class Output {
     separate();
     number(value);
   }
-  void blank() { separate(); }  ///< a missing cell
-  void cell(std::string_view text) {
+  void cell(std::string_view text) {  ///< empty for a missing number
     separate();
     append_field(buffer_, text);
   }
