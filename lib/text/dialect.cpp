@@ -74,7 +74,6 @@ bool Dialect::choose(std::string_view line, bool tabs) {
   const auto first = std::ranges::find_if(separators, [&](char c) { return holds(outside, c); });
   *this = Dialect();
   separator_ = first == separators.end() ? '\0' : *first;
-  asks_ = allows_foreign();
   if (separator_ == '\t' && !tabs) {
     const auto fields = split(line);
     const bool has_blanks =

@@ -76,7 +76,7 @@ class Dialect {
 
   char separator_ = '\0';
   char decimal_mark_ = '\0';       // of the numbers so far; '\0' if none had one
-  bool asks_ = false;              // a point may separate thousands
+  bool asks_ = true;               // a point may separate thousands, if a comma may be decimal
   bool passed_thousands_ = false;  // a number has passed whose mark may separate thousands
   std::vector<Seen> seen_;         // by field
   bool as_it_stands_ = false, may_need_quotes_ = false;
