@@ -103,10 +103,6 @@ void Dialect::want(std::size_t field) {
   fields_[field].wanted = true;
 }
 
-void Dialect::want_none() {
-  for (Field& field : fields_) field = Field();
-}
-
 // Reading a number finds its end, and so the end of its field: the line is passed over only once.
 
 std::span<const Field> Dialect::split(std::string_view line) {

@@ -30,7 +30,7 @@ class Dialect {
   /// From now on the number of this field (counted from 0) is read, until the next choose() or
   /// want_none().
   void want(std::size_t field);
-  void want_none();
+  void want_none() { fields_.assign(fields_.size(), {}); }
   /// A point is a decimal one in this file, whose head a tool has written.
   void has_points() { asks_ = false; }
 
