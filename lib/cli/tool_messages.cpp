@@ -28,20 +28,6 @@ void write_message(std::string_view name, std::string_view text) {
       ::write(STDERR_FILENO, line.data(), static_cast<std::size_t>(end + 1 - line.data()));
 }
 
-namespace {
-
-/// "a, b, c and 4 more"
-std::string some_of(std::vector<std::string> names) {
-  constexpr std::size_t most = 3;
-  if (names.size() > most) {
-    names[most] = fmt::format("{} more", names.size() - most);
-    names.resize(most + 1);
-  }
-  return enumeration(names);
-}
-
-}  // namespace
-
 void LinesOfRuns::add(const std::string& run, const std::string& text) {
   std::string alike = text;
   std::erase_if(alike, [](char c) {
@@ -56,13 +42,14 @@ void LinesOfRuns::add(const std::string& run, const std::string& text) {
 }
 
 std::vector<std::string> LinesOfRuns::all() const {
+  constexpr std::size_t most = 4;  // that are named
   std::vector<std::string> all;
-  for (const auto& [text, alike, runs] : lines_)
-    if (runs.empty()) all.push_back(text);
-    else if (runs.size() == 1) all.push_back(fmt::format("run {}: {}", runs[0], text));
-    else
-      all.push_back(fmt::format("run {} (and {}): {}", runs[0],
-                                some_of({runs.begin() + 1, runs.end()}), text));
+  for (auto [text, alike, runs] : lines_) {
+    if (runs.size() > most) runs[most] = fmt::format("{} more", runs.size() - most);
+    runs.resize(std::min(runs.size(), most + 1));
+    if (runs.size() > 1) runs[0] += " (and " + enumeration({runs.begin() + 1, runs.end()}) + ')';
+    all.push_back(runs.empty() ? text : fmt::format("run {}: {}", runs[0], text));
+  }
   return all;
 }
 
