@@ -79,15 +79,11 @@ void note_memory_has_run_out() {
   throw std::bad_alloc();
 }
 
-void check_memory() {
-  if (memory_has_run_out) throw std::bad_alloc();
-}
-
 }  // namespace
 
 /// Flushes the output and prints the counts; returns the exit status.
 int Tool::finish(int status) {
-  check_memory();
+  if (memory_has_run_out) throw std::bad_alloc();
   if (status == trouble) out.end_with(error_line_);
   out.flush();
   say("");
@@ -112,10 +108,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     error_line_ = error_line(name_);
     end_output_on_signals(out, error_line_);
     if (const std::string asked = parse(argc, argv); !asked.empty()) {
-      check_memory();
       out.text(asked);
-      out.flush();
-      return 0;
+      return finish(0);
     }
     standard_input_taken_ = take_scene();
     doubt_radii();
