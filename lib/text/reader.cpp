@@ -342,11 +342,8 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
       place = to.size() - begin;
       continue;
     }
-    const auto converted = !needed_.converts() ? needed.end()
-                                               : std::find_if(needed.begin(), needed.end(),
-                                                              [i](const NeededColumns::Needed& n) {
-      return n.column == i && n.to_si.changes();
-                                                 });
+    const auto is_it = [i](const auto& one) { return one.column == i && one.to_si.changes(); };
+    const auto converted = needed_.converts() ? std::ranges::find_if(needed, is_it) : needed.end();
     if (converted != needed.end() && !std::isnan(fields_[i].number))
       set_end(to, write_number(space(to, longest_number),
                                values_[static_cast<std::size_t>(converted - needed.begin())]));
