@@ -55,10 +55,7 @@ std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<FitRun> runs
                                const FitOptions& options, bool each) {
   std::vector<FitOfRuns> fits;
   if (each)
-    for (FitRun& run : runs) {
-      fits.push_back({route, {}});
-      fits.back().runs.push_back(std::move(run));
-    }
+    for (FitRun& run : runs) fits.push_back({route, {std::move(run)}});
   else fits.push_back({route, std::move(runs)});
   for (FitOfRuns& one : fits) try {
       one.result = fit(route, one.runs, options);
