@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // simulate - roll a body under a law D(v); see simulate(1)
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "cli/law_file.h"

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "cli/law_file.h"
 #include "contact/body.h"
 #include "statistics/run_laws.h"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "cli/tool.h"
 #include "contact/law.h"
 #include "text/column.h"
-#include "text/reader.h"
 
 namespace rolling {
 

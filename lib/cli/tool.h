@@ -18,7 +18,6 @@
 #include "base/error.h"
 #include "base/estimate.h"
 #include "contact/body.h"
-#include "text/column.h"
 #include "text/number.h"
 #include "text/output.h"
 #include "text/reader.h"

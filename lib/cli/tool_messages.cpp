@@ -10,9 +10,6 @@
 #include <csignal>
 #include <exception>
 
-#include "base/enumeration.h"
-#include "base/error.h"
-
 namespace rolling {
 
 void write_message(std::string_view name, std::string_view text) {

@@ -6,7 +6,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <utility>
 

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {

@@ -8,8 +8,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "text/delimiters.h"
-
 namespace rolling {
 namespace {
 

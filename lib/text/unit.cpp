@@ -6,7 +6,6 @@
 #include <cctype>
 #include <iterator>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include "text/column.h"
