@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     auto fits = fit_all(tool, route, std::move(runs), options, each);
     const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
     const auto first = std::ranges::find_if(fits, fitted);
-    if (first == fits.end()) return 2;
+    if (first == fits.end()) return trouble;
 
     write(tool.out, fits, *first, options.fit_slope, each);
     const bool compares = with_report || tool.checks;
@@ -211,6 +211,6 @@ int main(int argc, char** argv) {
       report(tool, one, *options.law);
     }
     tool.count_left_out(left_out, why_left_out(route, options));
-    return std::ranges::all_of(fits, fitted) ? 0 : 2;
+    return std::ranges::all_of(fits, fitted) ? 0 : trouble;
   });
 }

@@ -67,7 +67,7 @@ class NeededColumns {
   const std::string& assumed() const { return assumed_; }
 
  private:
-  void refuse(std::string_view name) const;
+  [[noreturn]] void refuse(std::string_view name) const;
   bool may_be_time(std::size_t column) const;
   void serve_by_units();
   void refuse_other_times(std::size_t column) const;

@@ -106,7 +106,8 @@ std::string plain_unit(std::string_view text) {
 }
 
 std::string bare_unit(std::string_view text) {
-  if (text.size() > 1 && (text.front() == '[' || text.front() == '('))
+  if ((text.starts_with('[') && text.ends_with(']')) ||
+      (text.starts_with('(') && text.ends_with(')')))
     text = text.substr(1, text.size() - 2);
   return std::string(trim(plain_unit(text)));
 }

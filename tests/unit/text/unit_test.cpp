@@ -92,7 +92,7 @@ TEST_CASE("unit: speeds with a name, and products with a power of time", "[text]
 TEST_CASE("unit: kinds of it", "[text]") {
   for (const char* unit : {"s", "[m]", "(m/s)", "m/s/s", "ms", "[cm]", "(km/h)"})
     CHECK(is_unit(unit));
-  for (const char* unit : {"N", "", "[", "-"}) CHECK(!is_unit(unit));
+  for (const char* unit : {"N", "", "[", "-", "(mm", "[mm)", "mm)"}) CHECK(!is_unit(unit));
 }
 
 TEST_CASE("unit: at the end of a name", "[text]") {
