@@ -30,14 +30,12 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   const double v = power.fastest();
   fit.model = std::make_shared<const Model>(
       power.model->with(power.parameters().with(law, power.law()(v), v)));
-  fit.minimum.rss = infinity;
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
     const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
                end = theta.end() - power.slope.has_value();
     theta.insert(theta.erase(first, end), c.begin(), c.end());
-    if (Minimum found = attempt(fit.system(), theta); found.rss < fit.minimum.rss)
-      fit.minimum = std::move(found);
+    improve(fit.minimum, fit.system(), theta);
   }
   if (was_found(fit)) report(fit);
   return fit;

@@ -64,7 +64,7 @@ Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
           const Roll::Point first = roll.at(0);
           std::vector<double> start = best.theta;
           start[system.place(r, 0)] *= 1 - rows * step * first.a / first.v;
-          if (Minimum found = attempt(system, start); found.rss < best.rss) best = std::move(found);
+          improve(best, system, start);
         } catch (const Error&) {  // there is no roll whose stop is then
         }
     }

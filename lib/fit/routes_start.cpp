@@ -202,9 +202,8 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
   std::vector<std::vector<double>> all = starts(thin, q, options);
   const System system = system_of(std::make_shared<const Model>(std::move(thin_runs), q));
-  Minimum best = attempt(system, all[0]);
-  for (std::size_t i = 1; i < all.size(); ++i)
-    if (Minimum found = attempt(system, all[i]); found.rss < best.rss) best = std::move(found);
+  Minimum best{all[0]};
+  for (const std::vector<double>& start : all) improve(best, system, start);
   require_near(thin, best.rss, options);
   all.insert(all.begin(), std::move(best.theta));
   return {q, std::move(all)};

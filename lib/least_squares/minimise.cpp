@@ -148,12 +148,9 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   return best;
 }
 
-Minimum attempt(const System& system, const std::vector<double>& start) {
-  try {
-    return minimise(system, start);
-  } catch (const Error&) {
-    return {start};
-  }
+void improve(Minimum& best, const System& system, const std::vector<double>& start) try {
+  if (Minimum found = minimise(system, start); found.rss < best.rss) best = std::move(found);
+} catch (const Error&) {  // no minimum is found
 }
 
 Minimum evaluated(const System& system, std::vector<double> theta) {

@@ -57,9 +57,9 @@ struct Minimum {
 /// if the Jacobian is rank-deficient.
 Minimum minimise(const System&, const std::vector<double>& start);
 
-/// The same for one start of several, or for a smaller system that approximates the one to be
-/// solved: if the search finds no minimum, theta is `start`, rss is infinite and the rest is empty.
-Minimum attempt(const System&, const std::vector<double>& start);
+/// The same for one start of several: a smaller minimum takes the place of `best`, which stays
+/// where the search finds none.
+void improve(Minimum& best, const System&, const std::vector<double>& start);
 
 /// f and R at theta, which need not be a minimum; rss is infinite, and the rest empty, where the
 /// model has no finite values.
