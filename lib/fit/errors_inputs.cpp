@@ -14,12 +14,6 @@ namespace rolling {
 
 namespace {
 
-/// The body of a run, with the uncertainties of its numbers, and the geometry of the route.
-ShiftOf body_of(Route route, const FitRun& run, const FitOptions& options) {
-  if (is_trajectory(route)) return {run.body, options.geometry};
-  return run.shift_of.value_or(ShiftOf{});
-}
-
 Estimate given(const ShiftOf& by, const UncertainNumber& number) {
   return {by.body.*number.value, by.body.*number.sigma};
 }
@@ -44,7 +38,7 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
               const UncertainNumber& number, const Estimate& value) {
   if (options.a || options.fit_slope || number.value == &Body::slope) return false;
   return std::ranges::all_of(runs, [&](const FitRun& run) {
-    const ShiftOf by = body_of(route, run, options);
+    const ShiftOf by = contact_of(route, run, options);
     return given(by, number) == value && by.geometry == Geometry::approximate && by.body.slope == 0;
   });
 }
@@ -57,7 +51,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const FitRun& run : runs) {
-      const Estimate value = given(body_of(route, run, options), number);
+      const Estimate value = given(contact_of(route, run, options), number);
       if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
@@ -66,7 +60,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
       const auto numbers_with = [&](double by) {
         std::vector<FittedNumber> numbers = fit.numbers();
         if (scales_a(route, runs, options, number, value)) {
-          Body body = body_of(route, runs.front(), options).body;
+          Body body = contact_of(route, runs.front(), options).body;
           const double unit = (body.K + 1) * body.R / body.g;
           body.*number.value += by;
           for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
@@ -76,7 +70,7 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
         }
         std::vector<FitRun> changed = runs;
         for (FitRun& run : changed)
-          if (given(body_of(route, run, options), number) == value) move(route, run, number, by);
+          if (given(contact_of(route, run, options), number) == value) move(route, run, number, by);
         return (agree ? fit_route : fit_of_disagreeing)(route, changed, options).numbers();
       };
       const double step = value.value == 0 || number.value == &Body::slope

@@ -58,6 +58,12 @@ struct FitOptions {
   bool robust = false;  ///< bisquare loss instead of squares; not for filtered columns
 };
 
+/// The body of a run on this route, with the uncertainties of its numbers, and the geometry.
+inline ShiftOf contact_of(Route route, const FitRun& run, const FitOptions& options) {
+  if (is_trajectory(route)) return {run.body, options.geometry};
+  return run.shift_of.value_or(ShiftOf{});
+}
+
 /// How a run differs from its filters.
 struct Mismatch {
   bool inside = false;              ///< the columns are not those of these filters

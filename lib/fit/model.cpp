@@ -82,14 +82,11 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     ObservedRun seen;
     if (all.size() > 1) seen.place = fmt::format("run {}: ", run.name);
     if (rows[r].empty()) fail("{}no row can be fitted", seen.place);
-    seen.body = run.body;
-    seen.geometry = options.geometry;
+    const auto [body, geometry] = contact_of(route, run, options);
+    seen.body = body;
+    seen.geometry = geometry;
     seen.origin = run.t.front();
     seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
-    if (route == Route::shift) {
-      seen.body = run.shift_of->body;
-      seen.geometry = run.shift_of->geometry;
-    }
     if (route == Route::shift && known) {
       for (std::size_t i : rows[r])
         seen.accelerations.push_back(acceleration_of(*run.shift_of, run.D[i]));
