@@ -21,24 +21,19 @@
 namespace rolling {
 namespace {
 
-/// The roll from which readings are off: that of all, or a robust one, which is that of the others.
-enum class Of { all, others };
-
 /// `left` is 1 - leverage. Without reading i the squares of the residuals of all are less by
-/// e^2/left, and that is the square of its distance, too. Those of a robust roll are less by e^2;
-/// the variance of what it predicts for the reading is 1/left of the noise's. The time is the
-/// number of the reading here. Where no reading counts as off, the distance is that of the one that
-/// is furthest off.
+/// e^2/left, and that is the square of its distance, too. Those of a robust roll, which is that of
+/// the others, are less by e^2; the variance of what it predicts for the reading is 1/left of the
+/// noise's. The time is the number of the reading here. Where no reading counts as off, the
+/// distance is that of the one that is furthest off.
 OffReadings of_run(std::span<const double> e, std::span<const double> left, double freedom,
-                   Of roll) {
+                   bool robust) {
   OffReadings found{};
   const std::size_t n = e.size(), most = std::min<std::size_t>(n / 10 + 1, 100), runs[] = {n};
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto lost = [&](std::size_t i) { return e[i] * e[i] / (roll == Of::others ? 1 : left[i]); };
-  const auto squared = [&](std::size_t i) {
-    return roll == Of::others ? e[i] * e[i] * left[i] : lost(i);
-  };
+  const auto lost = [&](std::size_t i) { return e[i] * e[i] / (robust ? 1 : left[i]); };
+  const auto squared = [&](std::size_t i) { return lost(i) * (robust ? left[i] : 1); };
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
                     [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
@@ -65,7 +60,7 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
 }
 
 /// Around the roll of this fit. In long runs no single reading has a share in it.
-OffReadings around(const Fitted& fit, Of roll) {
+OffReadings around(const Fitted& fit, bool robust) {
   const bool is_short = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
   const bool known = fit.noise->known();
   const auto sizes = known ? fit.noise->sources() : fit.model->rows();
@@ -83,7 +78,7 @@ OffReadings around(const Fitted& fit, Of roll) {
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
-    OffReadings off = of_run(e_of[r], left_of[r], freedom, roll);
+    OffReadings off = of_run(e_of[r], left_of[r], freedom, robust);
     if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model->runs()[r];
     off.run = r;
@@ -97,7 +92,7 @@ bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left(
 
 OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
   fit.minimum = evaluated(fit.system(), theta);
-  return around(fit, Of::others);
+  return around(fit, true);
 }
 
 }  // namespace
@@ -108,7 +103,7 @@ OffReadings off_readings_of_robust(const Fitted& fit) {
 
 OffReadings off_readings(const Fitted& fit) {
   if (!has_readings(fit)) return {};
-  const OffReadings found = around(fit, Of::all);
+  const OffReadings found = around(fit, false);
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.
