@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -137,9 +136,7 @@ class Law {
   /// The limit of D for v -> 0, which may be infinite.
   double at_rest() const { return at(0).D; }
   /// The largest speed for which the law is defined.
-  double highest() const {
-    return points_ ? points_->speeds().back() : std::numeric_limits<double>::infinity();
-  }
+  double highest() const { return points_ ? points_->speeds().back() : INFINITY; }
   /// Throws Error for a speed above that by more than the error of a roll.
   void check_speed(double v) const;
   /// The speeds, in increasing order, where a derivative of the law jumps.

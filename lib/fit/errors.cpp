@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -139,7 +138,7 @@ std::pair<double, Errors> tested(const Fitted& fit, const SeenNoise& seen) {
 
 /// True if all times are whole multiples of one step from the first: those of a clock.
 bool by_a_clock(const std::vector<double>& t) {
-  double step = std::numeric_limits<double>::infinity();
+  double step = INFINITY;
   for (std::size_t i = 1; i < t.size(); ++i) step = std::min(step, t[i] - t[i - 1]);
   return grid_of(t) > 0.99 * step;
 }
@@ -162,7 +161,6 @@ double variance_of_rounding(const Fitted& fit) {
 }
 
 Uncertainty uncertainty_of(const Fitted& fit, Matrix Q) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const SeenNoise seen = seen_noise(fit, std::move(Q));
   const auto with = [&](Errors kind, double whiteness, double variance) {
     const bool consistent = kind == Errors::autocorrelation || kind == Errors::uneven;
@@ -171,9 +169,9 @@ Uncertainty uncertainty_of(const Fitted& fit, Matrix Q) {
         covariance_of(fit, consistent ? consistent_meat(fit, seen, kind)
                                       : times(variance, products(seen.B, seen.sources)))};
   };
-  if (seen.freedom == 0) return with(Errors::none, nan, nan);
+  if (seen.freedom == 0) return with(Errors::none, NAN, NAN);
   const double floor = variance_of_rounding(fit);
-  if (seen.variance < floor) return with(Errors::classical, nan, floor);
+  if (seen.variance < floor) return with(Errors::classical, NAN, floor);
   const auto [whiteness, kind] = tested(fit, seen);
   return with(kind, whiteness, seen.variance);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "base/enumeration.h"
@@ -21,7 +20,7 @@ namespace {
 /// sqrt(RSS / (n - p)); NaN where no degree of freedom is left for the noise.
 double rms_of(const Fitted& found) {
   const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
-  if (found.degrees_left() == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (found.degrees_left() == 0) return NAN;
   return std::sqrt(sum_of_squares(found) / static_cast<double>(n - p));
 }
 

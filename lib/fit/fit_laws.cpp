@@ -16,8 +16,6 @@
 namespace rolling {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
 
 /// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
@@ -89,7 +87,7 @@ LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOpti
       of_law.coefficients.push_back({found.coefficients[j].value, std::sqrt(covariance[j][j])});
     of_law.correlations = correlations_of(covariance, found.coefficients.size());
   }
-  double of_asked = infinity, of_other = infinity;
+  double of_asked = INFINITY, of_other = INFINITY;
   for (const LawFit& fit : result.fits)
     if (fit.law == asked) of_asked = fit.aicc;
     else if (fit.aicc < of_other && !(fit.law->is_power && asked->is_power))

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -39,7 +38,7 @@ Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomp
   Recomputed output{filter.apply(t, y), input.reach + filter.reach};
   for (const std::size_t i : missing)
     for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, n); ++k)
-      output.values[k] = std::numeric_limits<double>::quiet_NaN();
+      output.values[k] = NAN;
   return output;
 }
 

@@ -3,7 +3,7 @@
 // D(v) and ln D of rows; speeds that the software of a sensor has made as differences of positions.
 #pragma once
 
-#include <limits>
+#include <cmath>
 #include <vector>
 
 #include "fit/fitted.h"
@@ -52,8 +52,7 @@ double sum_of_squares(const Fitted&);
 /// options.min_speed, and with D > 0 if `logarithms`; what is no more than the rounding of a
 /// difference (base/grid.h) counts as 0. From the time `stop` on no row is used. A body that rolls
 /// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
-Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms,
-                double stop = std::numeric_limits<double>::infinity());
+Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms, double stop = INFINITY);
 
 /// The runs of the columns D [m] or ln D with these rows, without the runs that have none. Throws
 /// Error if the rows do not determine the parameters.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -13,8 +12,6 @@
 namespace rolling {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Throws Error if a v0 that is fixed has the other sign than the motion of a run.
 void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& options) {
@@ -56,7 +53,7 @@ Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const double end = runs[r].t.back(),
                  step = end / static_cast<double>(std::max<std::size_t>(runs[r].t.size(), 2) - 1);
-    for (double before = infinity; best.rss < before * (1 - 1e-6);) {
+    for (double before = INFINITY; best.rss < before * (1 - 1e-6);) {
       before = best.rss;
       for (const double rows : {-1.0, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0}) try {
           Roll roll = rolls.roll(best.theta, r);

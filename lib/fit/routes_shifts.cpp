@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -39,7 +38,7 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
   if (options.b) exponents = {*options.b};
   else
     for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
-  double least = std::numeric_limits<double>::infinity();
+  double least = INFINITY;
   PowerLaw best{0, 0};
   for (double b : exponents) {
     const PowerLaw unit{std::pow(v_ref, -b), b};
@@ -59,15 +58,14 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
 }  // namespace
 
 Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto rolls = [&](std::size_t i) { return stop == infinity || run.t[i] < stop; };
+  const auto rolls = [&](std::size_t i) { return stop == INFINITY || run.t[i] < stop; };
   double sum = 0;
   for (std::size_t i = 0; i < run.v.size(); ++i)
     if (std::isfinite(run.v[i]) && rolls(i)) sum += run.v[i];
   // What is left where the terms of a sum cancel is 0: a share of the median size, which no single
   // reading can shift.
   const double way = sum < 0 ? -1 : 1, least_v = program_rounding * typical_size(run.v),
-               least_D = logarithms ? program_rounding * typical_size(run.D) : -infinity;
+               least_D = logarithms ? program_rounding * typical_size(run.D) : -INFINITY;
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i) {
     const double v = way * run.v[i], D = way * run.D[i];
@@ -219,7 +217,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
     // logarithms are far from the line.
     const double stop =
         roll ? roll->model->runs()[r].origin + roll->model->roll(roll->minimum.theta, r).stop_time()
-             : std::numeric_limits<double>::infinity();
+             : INFINITY;
     rows.push_back(shift_rows(runs[r], options, true, stop));
     all_rows += shift_rows(runs[r], options, false).size(), positive += rows.back().size();
   }

@@ -4,9 +4,9 @@
 // which outliers count little or nothing.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -50,7 +50,7 @@ inline constexpr const char* choose_the_roll =
 struct Minimum {
   std::vector<double> theta, f = {};
   Triangles R = {};
-  double rss = std::numeric_limits<double>::infinity();  ///< |f|^2
+  double rss = INFINITY;  ///< |f|^2
 };
 
 /// The minimum that the search finds from `start`. Throws Error if the search does not converge or

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -15,8 +14,6 @@
 
 namespace rolling {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The median size of residuals, divided by that of a standard normal variable. The p smallest are
 /// not counted: the p parameters may have made as many vanish.
@@ -33,7 +30,7 @@ double median_scale(std::vector<double> residuals, std::size_t p) {
 /// rest, do not count. Where most rows lie on the model, the scale is above rounding, as theta is
 /// of order one. Infinite where the model has no finite values.
 double scale_of(const System& system, const Minimum& at) {
-  if (!std::isfinite(at.rss)) return infinity;
+  if (!std::isfinite(at.rss)) return INFINITY;
   std::vector<double> scales;
   for (const auto f : by_run(at.f, system.runs))
     scales.push_back(median_scale({f.begin(), f.end()}, system.columns()));
@@ -70,7 +67,7 @@ struct Half {
 Half best_half(const System& linear, std::vector<double> delta) {
   Half found{std::move(delta)};
   linear.evaluate(found.delta, [&](std::size_t, std::span<double> f, std::span<double>) {
-    for (double& x : f) x = std::isfinite(x) ? x * x : infinity;
+    for (double& x : f) x = std::isfinite(x) ? x * x : INFINITY;
     std::vector<double> squares(f.begin(), f.end());
     const std::size_t half = std::min(f.size(), (f.size() + linear.columns() + 1) / 2);
     const double most = nth_smallest(squares, half - 1);

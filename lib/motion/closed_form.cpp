@@ -2,7 +2,6 @@
 #include "motion/closed_form.h"
 
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "contact/contact.h"
@@ -27,7 +26,7 @@ ClosedForm::ClosedForm(const Body& body, PowerLaw law, double v0, double x0)
   length_ = DoubleDouble(v0) / rate_, slope_ = -(s * rate_), s1_ = s1;
   if (s1.hi != 0) distance_ = length_ / s1;
   if (s.hi != 0) inverse_s_ = DoubleDouble(1) / s;
-  stop_time_ = std::numeric_limits<double>::infinity();
+  stop_time_ = INFINITY;
   if (s.hi > 0) {
     const DoubleDouble stop = inverse_s_ / rate_;
     stop_time_ = stop.lo > 0 ? std::nextafter(stop.hi, stop_time_) : stop.hi;

@@ -72,7 +72,7 @@ Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
     : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), cos_(incline(body).cos),
       sin_(incline(body).sin), way_(1) {
   if (v0 == 0) {  // a leg of no length, from which nothing moves the end
-    end_ = End::stop, stop_ = 0, q0_ = infinity;
+    end_ = End::stop, stop_ = 0, q0_ = INFINITY;
     return;
   }
   Rate start = rate(v0);
@@ -219,7 +219,7 @@ void Leg::add_panel() {
   for (;;) {
     double to = std::min(r_ + width, limit);
     const auto below = [&](double r) { return law_.at(speed(r)).D < body_.R; };
-    const bool deepens = geometry_ == Geometry::exact && radius_time_ == infinity && !below(to);
+    const bool deepens = geometry_ == Geometry::exact && radius_time_ == INFINITY && !below(to);
     if (deepens) to = last_where(r_, to, below);
     if (deepens && to - r_ <= narrowest * (1 + r_)) {
       radius_time_ = sums_[0], radius_speed_ = speed(r_);
@@ -332,36 +332,36 @@ Leg::Point Leg::at(double t) {
 }
 
 double Leg::stop_time() {
-  if (way_ < 0) return infinity;
+  if (way_ < 0) return INFINITY;
   // A level mat under a power of v that is not below 1 never stops the body.
   if (body_.slope == 0 && end_ == End::none) {
     const Shift s = law_.at(v0_ * 1e-3);
-    if (law_.at_rest() == 0 && s.by_log_v >= s.D) return infinity;
+    if (law_.at_rest() == 0 && s.by_log_v >= s.D) return INFINITY;
   }
-  reach(infinity);
+  reach(INFINITY);
   return stop_;
 }
 
 double Leg::stop_until(double t) {
   reach(t);
-  return stop_ <= t ? stop_ : infinity;
+  return stop_ <= t ? stop_ : INFINITY;
 }
 
 double Leg::radius_time(double t) {
-  if (geometry_ == Geometry::approximate) return infinity;
+  if (geometry_ == Geometry::approximate) return INFINITY;
   reach(t);
   return radius_time_;
 }
 
 double Leg::last_speed() {
-  if (way_ < 0 || body_.slope < 0) reach(infinity);
+  if (way_ < 0 || body_.slope < 0) reach(INFINITY);
   const double v = speed(r_);
   if (end_ == End::constant_speed) return v - above_last_speed(v, rate(v));
-  return end_ == End::too_fast ? infinity : 0;
+  return end_ == End::too_fast ? INFINITY : 0;
 }
 
 Leg::Derivatives Leg::stop_time_by_c() {
-  reach(infinity);
+  reach(INFINITY);
   Derivatives by{};
   for (std::size_t j = 0; j <= law_.size(); ++j) by[j] = -sums_[2 + j];
   return by;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -72,7 +73,6 @@ class Leg {
   double v0_;
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr std::size_t terms = 20, values = 2 + 2 * most;
   /// Time, way in units of v0, G, and U in units of v0.
   using Series = ChebyshevSeries<values, terms>;
@@ -122,8 +122,8 @@ class Leg {
   double r_ = 0, width_ = 2;  // where the next panel begins, and how long it may be
   Sums sums_{};               // up to there
   End end_ = End::none;
-  double rest_ = 0, stop_ = infinity;
-  double radius_time_ = infinity, radius_speed_ = 0;
+  double rest_ = 0, stop_ = INFINITY;
+  double radius_time_ = INFINITY, radius_speed_ = 0;
 };
 
 }  // namespace rolling

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "contact/contact.h"
@@ -15,8 +14,6 @@
 namespace rolling {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The motion of a Roll.
 class SpeedRoll final : public Motion {
@@ -29,7 +26,7 @@ class SpeedRoll final : public Motion {
 
   double stop_time() override {
     const double stop = roll_.stop_time();
-    return std::isfinite(stop) && roll_.radius_time(stop) < stop ? infinity : stop;
+    return std::isfinite(stop) && roll_.radius_time(stop) < stop ? INFINITY : stop;
   }
   double last_speed() override { return roll_.last_speed(); }
   void seek(double t) override {

@@ -67,7 +67,7 @@ IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
 law_(s.law), end_(end_of(s)) {
   turns_ = end_.turns, at_rest_ = s.v0 == 0 && !turns_;
   if (s.v0 == 0) stop_time_ = 0;
-  else if (end_.floor == 0) stop_time_ = infinity;
+  else if (end_.floor == 0) stop_time_ = INFINITY;
 }
 
 bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
@@ -170,7 +170,7 @@ MemoryRoll::MemoryRoll(const Scene& s, Stepper stepper, double rtol, unsigned lo
 law_(law_of(s)), bulge_(s.bulge) {
   at_rest_ = v0_ == 0;
   if (at_rest_) stop_time_ = 0;
-  else if (law_.b >= 2 || body_.slope != 0) stop_time_ = infinity;
+  else if (law_.b >= 2 || body_.slope != 0) stop_time_ = INFINITY;
 }
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {
@@ -190,7 +190,7 @@ bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
     if (!ode.advance(
             t,
             [&, creep = creep](const std::vector<double>& y) {
-      return std::min(way * y[1], creep > 0 ? fastest(y) - creep : infinity);
+      return std::min(way * y[1], creep > 0 ? fastest(y) - creep : INFINITY);
             },
             steps))
       return false;
@@ -199,7 +199,7 @@ bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
     if (creep > 0 && bound - creep <= way * y[1]) return true;
     y[1] = 0;
     ode.restart(ode.time(), y);
-    if (stop_time_ == infinity) continue;
+    if (stop_time_ == INFINITY) continue;
     if (creep == 0) creep = rest_fraction * bound;
     else if (bound <= rest_fraction * v0_) return true;
   }

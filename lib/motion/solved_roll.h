@@ -5,8 +5,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -26,7 +26,7 @@ class SolvedRoll : public Motion {
   double stop_time() override {
     if (!stop_time_) {
       Course course{from_start_()};
-      advance(course, infinity, most_steps_);
+      advance(course, INFINITY, most_steps_);
       stop_time_ = course.ode.time();
     }
     return *stop_time_;
@@ -35,7 +35,7 @@ class SolvedRoll : public Motion {
     if (at_rest_) return;
     // The first value that stop_time() has returned remains valid: within the error of the solver
     // it depends on the steps.
-    const double end = turns_ ? infinity : stop_time_.value_or(infinity);
+    const double end = turns_ ? INFINITY : stop_time_.value_or(INFINITY);
     const bool stops = advance(course_, std::min(t, end), most_steps_);
     at_rest_ = !turns_ && (stops || t >= end);
     if (!stops) return;
@@ -51,7 +51,6 @@ class SolvedRoll : public Motion {
   unsigned long evaluations() const override { return course_.ode.evaluations(); }
 
  protected:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   struct Course {
     Integrator ode;
     double creep = 0;  // of the derived class

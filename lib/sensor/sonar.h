@@ -5,8 +5,8 @@
 
 #include "motion/scene.h"
 
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace rolling {
@@ -20,7 +20,7 @@ struct SonarOptions {
   unsigned long seed = 1;
   /// Time from the end of the push to the end of the run [s]; infinite: the run ends
   /// rest_after after the stop.
-  double until = std::numeric_limits<double>::infinity();
+  double until = INFINITY;
 
   static constexpr double rest_before = 1;  ///< at rest before the push [s]
   static constexpr double push = 0.5;       ///< duration of the push [s]

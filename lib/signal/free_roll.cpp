@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -151,7 +150,7 @@ class Search {
     const Piece<P>&first = pieces_[c.first], &last = pieces_[c.last];
     Stretch s{first.begin, last.end};
     FreeRoll::End how = end_of(c);
-    double sudden = std::numeric_limits<double>::infinity();  // RSS of an end with a jump
+    double sudden = INFINITY;  // RSS of an end with a jump
     if (s.begin > 0) {
       const Piece<P>& before = pieces_[c.first - 1];
       const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -25,7 +24,7 @@ namespace rolling {
 template <std::size_t P>
 std::pair<double, std::size_t> cost_of(const Polynomial<P>& piece, std::size_t n) {
   const double weight = 1.5 * std::log(static_cast<double>(n));
-  std::pair<double, std::size_t> least{std::numeric_limits<double>::infinity(), 0};
+  std::pair<double, std::size_t> least{INFINITY, 0};
   for (std::size_t k = 1; k <= std::min(P, piece.size()); ++k)
     least = std::min(least, {piece.rss(k) + weight * static_cast<double>(k + 1), k});
   return least;
@@ -42,7 +41,7 @@ std::vector<std::size_t> best_partition(std::span<const Sample> samples, double 
   std::vector<std::size_t> back(n + 1, 0), joints{n};
   for (std::size_t end = 1; end <= n; ++end) {
     Polynomial<P> piece;
-    double& cost = least[end] = std::numeric_limits<double>::infinity();
+    double& cost = least[end] = INFINITY;
     for (std::size_t i = end; i-- > 0 && piece.rss() < cost;) {
       piece.add(samples[i].t - samples[end - 1].t, samples[i].y / noise);
       const double here = least[i] + cost_of(piece, n).first;
@@ -162,7 +161,7 @@ class Joints {
     };
     std::vector<double> cost;
     for (std::size_t joint = least; joint < end; ++joint) {
-      cost.push_back(std::numeric_limits<double>::infinity());
+      cost.push_back(INFINITY);
       for (const double part : {0.0, 0.25, 0.5, 0.75})
         cost.back() = std::min(
             cost.back(), rss(joint, std::lerp(samples_[joint - 1].t, samples_[joint].t, part)));
@@ -176,7 +175,7 @@ class Joints {
   /// within a time T of no more than a quarter of the roll.
   std::pair<std::size_t, double> before_hand(std::size_t begin, std::size_t roughly,
                                              std::size_t end) const {
-    std::pair best{roughly, std::numeric_limits<double>::infinity()};
+    std::pair<std::size_t, double> best{roughly, INFINITY};
     Polynomial<P + 1> roll;
     std::array<double, P + 1> row{}, slope{};
     row[P] = 1;

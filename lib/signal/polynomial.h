@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace rolling {
 
@@ -51,7 +50,7 @@ class Polynomial {
     bool is_known() const { return std::abs(value) > 3 * error; }
   };
   Estimate derivative(std::size_t order, double u, std::size_t size = P) const {
-    if (size_ < size) return {0, std::numeric_limits<double>::infinity()};
+    if (size_ < size) return {0, INFINITY};
     std::array<double, P> w{};  // R^T w = d/du^order (1, u, u^2, ...)
     double value = 0, square = 0, power = 1;
     for (std::size_t k = 0; k < size; ++k) {

@@ -31,7 +31,7 @@ std::optional<double> way_by(std::span<const double> t, std::span<const double> 
   const double of_clock = std::numeric_limits<double>::epsilon() *
                           (std::abs(t.front()) + std::abs(t.back())),
                of_t = place_of(since_first) + of_clock, of_v = place_of(v);
-  double least = -std::numeric_limits<double>::infinity(), most = -least, coarsest = 0;
+  double least = -INFINITY, most = -least, coarsest = 0;
   std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
     const double step = t[i + 1] - t[i], speed = v[i + row],

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,8 +12,7 @@
 namespace rolling {
 
 struct SelectionOptions {
-  double from = -std::numeric_limits<double>::infinity(),
-         to = std::numeric_limits<double>::infinity();  ///< [s]
+  double from = -INFINITY, to = INFINITY;  ///< [s]
   /// Readings further from the motion than this many times the scatter are left out; 0: none.
   double outliers = 0;
   Width width{};           ///< width of the windows for outliers

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/golden_section.h"
 
@@ -50,7 +49,7 @@ double SplineDerivative::solve(double alpha) {
   for (std::size_t i = 0; i < m + 2; ++i) square += Qg(i) * Qg(i);
   constexpr double weight = 1.4;
   const double freedom = weight * trace - (weight - 1) * static_cast<double>(m + 2) / alpha;
-  return freedom > 0 ? square / (freedom * freedom) : std::numeric_limits<double>::infinity();
+  return freedom > 0 ? square / (freedom * freedom) : INFINITY;
 }
 
 /// An element of Q g: how much the third derivative jumps at a knot.
