@@ -34,7 +34,7 @@ struct BeginningSearch {
 
   /// `fit` is that of this run by itself, taken as linear around its minimum.
   void add(const Fitted& fit, std::size_t run) {
-    const auto& t = fit.model->runs().front().t;
+    const auto& t = fit.model.runs().front().t;
     const System system = fit.system();
     system.evaluate(fit.minimum.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
       const std::size_t n = f.size(), q = system.columns();
@@ -75,7 +75,7 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitR
   const std::size_t parameters = joint.parameters().of_one_run().count();
   BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
-      if (joint.model->runs()[r].y.size() >= 20 + parameters)
+      if (joint.model.runs()[r].y.size() >= 20 + parameters)
         search.add(fit_of_run(joint, r, options), r);
     } catch (const Error&) {  // the run does not determine a law by itself
     }

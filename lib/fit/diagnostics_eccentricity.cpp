@@ -66,7 +66,7 @@ std::vector<double> response(const ObservedRun& run, const Path& path, double r)
 Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, double r,
                        double freedom, std::vector<double> f,
                        std::span<const std::span<const double>> Q) {
-  const ObservedRun& of = fit.model->runs()[run];
+  const ObservedRun& of = fit.model.runs()[run];
   std::vector<double> by_e = response(of, path, r);
   if (of.H) by_e = of.H->times(by_e);
   if (fit.noise->known()) fit.noise->whitener(run).apply(by_e);
@@ -103,15 +103,15 @@ std::vector<double> cut_off(std::span<const double> f) {
 std::optional<Eccentricity> eccentricity_of(const Fitted& fit, const Matrix& Q) {
   if (!fit.is_roll() || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
-  const std::vector<std::size_t> rows = fit.model->rows();
+  const std::vector<std::size_t> rows = fit.model.rows();
   const auto f_of = by_run(fit.minimum.f, rows);
   const auto Q_of = rows_by_run(Q, rows);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::vector<double> f = cut_off(f_of[r]);
     const double freedom = static_cast<double>(rows[r]) - static_cast<double>(Q.size());
     if (!(freedom > 2 && dot(f, f) > 0)) continue;
-    const ObservedRun& run = fit.model->runs()[r];
-    const Path path = path_of(run, fit.model->roll(fit.minimum.theta, r));
+    const ObservedRun& run = fit.model.runs()[r];
+    const Path path = path_of(run, fit.model.roll(fit.minimum.theta, r));
     if (!shows_a_turn(run, path, f.size())) continue;
     const auto signal = [&](double stretch) {
       return amplitude(fit, r, path, stretch * run.body.R, freedom, f, Q_of[r]);

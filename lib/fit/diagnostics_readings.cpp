@@ -61,9 +61,9 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
 
 /// Around the roll of this fit. In long runs no single reading has a share in it.
 OffReadings around(const Fitted& fit, bool robust) {
-  const bool is_short = fit.minimum.f.size() <= 1000 * fit.model->runs().size();
+  const bool is_short = fit.minimum.f.size() <= 1000 * fit.model.runs().size();
   const bool known = fit.noise->known();
-  const auto sizes = known ? fit.noise->sources() : fit.model->rows();
+  const auto sizes = known ? fit.noise->sources() : fit.model.rows();
   const auto raw = [&](const std::vector<double>& x) {
     return known ? fit.noise->to_sources(x) : x;
   };
@@ -80,7 +80,7 @@ OffReadings around(const Fitted& fit, bool robust) {
         static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
     OffReadings off = of_run(e_of[r], left_of[r], freedom, robust);
     if (rank(off) <= rank(found)) continue;
-    const ObservedRun& run = fit.model->runs()[r];
+    const ObservedRun& run = fit.model.runs()[r];
     off.run = r;
     off.time = run.origin + run.t[static_cast<std::size_t>(off.time)];
     found = off;
@@ -120,9 +120,9 @@ double few_reversals(const Fitted& fit) {
   if (!fit.is_roll() || fit.noise->known()) return 1;
   double expected = 0;
   unsigned seen = 0;
-  const auto residuals = by_run(fit.minimum.f, fit.model->rows());  // model - reading
+  const auto residuals = by_run(fit.minimum.f, fit.model.rows());  // model - reading
   for (std::size_t r = 0; r < residuals.size(); ++r) {
-    const std::vector<double>& y = fit.model->runs()[r].y;
+    const std::vector<double>& y = fit.model.runs()[r].y;
     const auto f = residuals[r];
     const double sigma = deviation({f.begin(), f.end()});
     for (std::size_t i = 1; i < f.size(); ++i) {

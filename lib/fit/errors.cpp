@@ -79,7 +79,7 @@ SeenNoise seen_noise(const Fitted& fit, Matrix Q) {
   if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
   SeenNoise seen{.freedom = fit.degrees_left()};
-  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.model->rows();
+  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.model.rows();
   seen.B = std::move(Q);
   if (fit.noise->from_sources_alone()) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
@@ -108,7 +108,7 @@ std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Er
     for (std::size_t i = 0; i < seen.e.size(); ++i)
       column[i] *= seen.e[i] / (by_leverage ? std::max(seen.left[i], 0.01) : 1);
   const std::size_t taken =
-      fit.minimum.theta.size() + means_taken(fit.model->runs(), fit.parameters());
+      fit.minimum.theta.size() + means_taken(fit.model.runs(), fit.parameters());
   std::vector<double> M = kind == Errors::uneven
                               ? products(scores, seen.sources)
                               : newey_west(std::move(scores), taken, seen.e, seen.sources);
@@ -149,7 +149,7 @@ double variance_of_rounding(const Fitted& fit) {
   if (!fit.is_roll() || fit.noise->known()) return 0;
   double sum = 0;
   bool rounded = false;
-  for (const ObservedRun& run : fit.model->runs()) {
+  for (const ObservedRun& run : fit.model.runs()) {
     sum += std::pow(grid_of(run.y), 2) / 12 * static_cast<double>(run.y.size());
     rounded |= by_a_clock(run.t) || std::ranges::adjacent_find(run.y) != run.y.end();
   }

@@ -84,8 +84,8 @@ Fitted around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>&
 /// which a slope acts like more D.
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
   if (one.covariance.bb > 0 || !joint.is_roll()) return one.best_log_v();
-  Roll roll = joint.model->roll(joint.minimum.theta, one.run);
-  const double last = joint.model->runs()[one.run].t.back(),
+  Roll roll = joint.model.roll(joint.minimum.theta, one.run);
+  const double last = joint.model.runs()[one.run].t.back(),
                end = std::min(last, roll.stop_until(last));
   return std::log(roll.at(end).x / end);
 }
@@ -102,7 +102,7 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
   std::vector<Estimate> log_D;
   std::vector<double> by_slope;
   for (const OwnLaw& one : laws) {
-    const ObservedRun& run = joint.model->runs()[one.run];
+    const ObservedRun& run = joint.model.runs()[one.run];
     log_D.push_back(one.log_D(log_v));
     by_slope.push_back(run.way * run.body.R / D);
   }
@@ -126,7 +126,7 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
 std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& options,
                                  Fitted& joint) {
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
-  const auto way = [&](const OwnLaw& one) { return joint.model->runs()[one.run].way; };
+  const auto way = [&](const OwnLaw& one) { return joint.model.runs()[one.run].way; };
   const bool of_one_way = std::ranges::adjacent_find(laws, std::not_equal_to(), way) == laws.end();
   if (freedom < 1 || !options.fits_power() || (options.fit_slope && (options.a || of_one_way)))
     return {};

@@ -73,9 +73,9 @@ std::string names_of(const LawForm& form) {
 
 /// True if the rolls together go up the slope and down.
 bool both_ways(const Fitted& found) {
-  const auto& runs = found.model->runs();
+  const auto& runs = found.model.runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    Roll roll = found.model->roll(found.minimum.theta, r);
+    Roll roll = found.model.roll(found.minimum.theta, r);
     if (runs[r].way != runs[0].way || (roll.turns() && roll.at(runs[r].t.back()).v < 0))
       return true;
   }
@@ -123,10 +123,10 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
 void require_roll(const Fitted& found) {
   if (!found.is_roll()) return;
   constexpr double rest = 1e-3;  // of v0; below it MemoryRoll, too, counts a body as at rest
-  const auto& runs = found.model->runs();
+  const auto& runs = found.model.runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
-    Roll roll = found.model->roll(found.minimum.theta, r);
+    Roll roll = found.model.roll(found.minimum.theta, r);
     const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D, last = run.t.back();
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);

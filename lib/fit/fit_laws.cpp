@@ -26,8 +26,7 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   Fitted fit{};
   fit.noise = power.noise;
   const double v = power.fastest();
-  fit.model = std::make_shared<const Model>(
-      power.model->with(power.parameters().with(law, power.law()(v), v)));
+  fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
     const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
@@ -45,7 +44,7 @@ double independent_rows(const std::vector<Fitted>& all) {
   double r = 1;
   for (const Fitted& law : all)
     if (const Minimum& m = law.minimum; m.rss > 0 && was_found(law))
-      r = std::min(r, lagged(m.f, law.model->rows(), 1) / m.rss);
+      r = std::min(r, lagged(m.f, law.model.rows(), 1) / m.rss);
   return r > 0 && r < 1 ? n * (1 - r) / (1 + r) : n;
 }
 

@@ -22,7 +22,7 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t n = informative_rows(model->runs(), parameters(), *noise),
+  const std::size_t n = informative_rows(model.runs(), parameters(), *noise),
                     p = minimum.theta.size(), left = n > p ? n - p : 0;
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
@@ -45,8 +45,8 @@ void report(Fitted& fit) {
   }
   if (!fit.is_roll()) return;
   if (q.fits_slope()) fit.slope = number(q.slope(theta, 0), {by_c, 0, 0, 1});
-  for (std::size_t r = 0; r < fit.model->runs().size(); ++r) {
-    const double way = fit.model->runs()[r].way;
+  for (std::size_t r = 0; r < fit.model.runs().size(); ++r) {
+    const double way = fit.model.runs()[r].way;
     fit.v0.push_back(number(way * q.v0(theta, r), {by_c, way}));
     if (q.has_x0()) fit.x0.push_back(number(q.x0(theta, r), {by_c, 0, 1}));
   }
@@ -69,7 +69,7 @@ std::vector<FittedNumber> Fitted::numbers() const {
 double Fitted::fastest() const {
   double speed = 0;
   for (const FittedNumber& number : v0) speed = std::max(speed, std::abs(number.value));
-  for (const ObservedRun& run : model->runs())  // of shifts, t are the speeds
+  for (const ObservedRun& run : model.runs())  // of shifts, t are the speeds
     if (!is_roll()) speed = std::max(speed, std::ranges::max(run.t));
   return speed;
 }

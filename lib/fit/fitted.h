@@ -47,12 +47,12 @@ struct Fitted {
   std::optional<FittedNumber> slope = {};  ///< if it is a parameter
   std::vector<FittedNumber> v0 = {};       ///< one for each run, if the model is a roll
   std::vector<FittedNumber> x0 = {};       ///< likewise, if positions are fitted
-  std::shared_ptr<const Model> model = {};
+  Model model = {};
 
-  bool is_roll() const { return model->is_roll(); }
+  bool is_roll() const { return model.is_roll(); }
   /// The weighted problem of which this is the minimum.
   System system() const { return system_of(model, noise); }
-  const Parameters& parameters() const { return model->parameters(); }
+  const Parameters& parameters() const { return model.parameters(); }
   Law law() const;
   /// The numbers that have errors: the coefficients, the slope if it is a parameter, and v0 and x0
   /// of the first run, if the model has them. A row reports these of a single run alone.

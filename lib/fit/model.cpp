@@ -203,14 +203,14 @@ std::vector<std::size_t> Model::rows() const {
   return rows;
 }
 
-System system_of(std::shared_ptr<const Model> model, std::shared_ptr<const Noise> noise) {
-  const Parameters& q = model->parameters();
-  return {model->rows(), q.own(), q.shared(),
+System system_of(Model model, std::shared_ptr<const Noise> noise) {
+  const Parameters& q = model.parameters();
+  return {model.rows(), q.own(), q.shared(),
           [model, noise, columns = q.columns()](const std::vector<double>& theta,
                                                 const TakeRows& take) {
-    for (std::size_t r = 0; r < model->runs().size(); ++r) {
-      const ObservedRun& run = model->runs()[r];
-      const RawModel raw = model->raw(theta, r);
+    for (std::size_t r = 0; r < model.runs().size(); ++r) {
+      const ObservedRun& run = model.runs()[r];
+      const RawModel raw = model.raw(theta, r);
       const std::size_t n = run.t.size(), rows = run.y.size();
       std::vector<double> all(n * (1 + columns));  // the residuals, then the columns of J
       for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);

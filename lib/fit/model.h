@@ -45,6 +45,7 @@ class Parameters {
   static constexpr double slope_unit = 1e-3;
   static constexpr std::size_t most = LawForm::most + 3;  ///< v0, x0 and the slope
 
+  Parameters() = default;
   /// Of rolls under a v^b. `position`: the raw column is a position, so that each run has an x0.
   Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
       : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
@@ -206,9 +207,10 @@ std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&,
 /// shared ones, to `slopes`, `stride` apart.
 using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
 
-/// All runs under one law.
+/// All runs under one law. Copies share the runs.
 class Model {
  public:
+  Model() = default;
   Model(std::vector<ObservedRun> runs, const Parameters& parameters)
       : runs_(std::make_shared<const std::vector<ObservedRun>>(std::move(runs))),
         parameters_(parameters) {}
@@ -237,7 +239,6 @@ class Model {
 
 /// The least-squares problem of a model: the residuals H raw - y and their derivatives, whitened
 /// if the noise is known.
-System system_of(std::shared_ptr<const Model>,
-                 std::shared_ptr<const Noise> = std::make_shared<const Noise>());
+System system_of(Model, std::shared_ptr<const Noise> = std::make_shared<const Noise>());
 
 }  // namespace rolling

@@ -99,7 +99,7 @@ inline constexpr std::size_t searched_for_white_noise = 100'000;
 
 /// The share between `least` and `most` with the largest restricted likelihood of the residuals,
 /// with the model linear around theta. H of every run must be known.
-WhiteShare most_likely_share(const std::shared_ptr<const Model>&, const std::vector<double>& theta,
-                             double least, double most);
+WhiteShare most_likely_share(const Model&, const std::vector<double>& theta, double least,
+                             double most);
 
 }  // namespace rolling

@@ -18,7 +18,7 @@ namespace rolling {
 namespace {
 
 /// The model with the first `rows` of each run alone.
-std::shared_ptr<const Model> heads_of(const Model& model, std::size_t rows) {
+Model heads_of(const Model& model, std::size_t rows) {
   std::vector<ObservedRun> runs = model.runs();
   for (ObservedRun& run : runs) {
     Rows first(std::min(rows, run.y.size()));
@@ -26,17 +26,17 @@ std::shared_ptr<const Model> heads_of(const Model& model, std::size_t rows) {
     run.y.resize(first.size());
     run.H = std::make_shared<const BandMatrix>(run.H->of_rows(first));
   }
-  return std::make_shared<const Model>(std::move(runs), model.parameters());
+  return {std::move(runs), model.parameters()};
 }
 
 }  // namespace
 
-WhiteShare most_likely_share(const std::shared_ptr<const Model>& model,
-                             const std::vector<double>& theta, double least, double most) {
-  const auto heads = heads_of(*model, searched_for_white_noise);
+WhiteShare most_likely_share(const Model& model, const std::vector<double>& theta, double least,
+                             double most) {
+  const Model heads = heads_of(model, searched_for_white_noise);
   const System linear = linearised(system_of(heads), theta);
   std::vector<Covariance> noise;
-  for (const ObservedRun& run : heads->runs()) noise.emplace_back(*run.H);
+  for (const ObservedRun& run : heads.runs()) noise.emplace_back(*run.H);
   const auto likelihood = [&](double share) {
     double log_size = 0;
     System weighted = linear;
@@ -80,8 +80,7 @@ Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
   const double least = std::exp(-12), most = std::exp(4);
   const std::vector<double>& theta = plain.minimum.theta;
   const auto model_of = [&](const std::vector<Response>& responses) {
-    return std::make_shared<const Model>(observe(Route::velocity, all, rows, responses, options),
-                                         plain.parameters());
+    return Model(observe(Route::velocity, all, rows, responses, options), plain.parameters());
   };
   const double of_white_noise = restricted_likelihood(evaluated(system_of(model_of({})), theta));
   Maker best;
@@ -142,7 +141,7 @@ void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun
   for (std::size_t r = 0; r < all.size(); ++r) {
     double& v0 = fit.v0[r].value;
     v0 -=
-        std::copysign(lag_of(filter, all[r].t), v0) * fit.model->roll(fit.minimum.theta, r).at(0).a;
+        std::copysign(lag_of(filter, all[r].t), v0) * fit.model.roll(fit.minimum.theta, r).at(0).a;
   }
 }
 
@@ -155,7 +154,7 @@ constexpr std::size_t searched = 2000;
 bool may_be_differences(const Fitted& plain) {
   std::vector<double> f;
   std::vector<std::size_t> runs;
-  for (const auto of_run : by_run(plain.minimum.f, plain.model->rows())) {
+  for (const auto of_run : by_run(plain.minimum.f, plain.model.rows())) {
     const auto head = of_run.first(std::min(of_run.size(), searched));
     runs.push_back(head.size());
     f.insert(f.end(), head.begin(), head.end());

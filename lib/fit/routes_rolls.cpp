@@ -87,7 +87,7 @@ double unweighted(const Fitted& fit) {
 bool rounded(const Fitted& fit) {
   if (!fit.noise->from_sources_alone()) return false;
   double variances = 0;
-  const std::vector<std::size_t> rows = fit.model->rows();
+  const std::vector<std::size_t> rows = fit.model.rows();
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t i = 0; i < rows[r]; ++i) variances += fit.noise->whitener(r).variance(i);
   return fit.minimum.rss * variances >
@@ -99,12 +99,12 @@ bool rounded(const Fitted& fit) {
 /// residuals may be large by chance: there the likelihood decides.
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
-  const bool many = std::ranges::max(fit.model->rows()) > searched_for_white_noise;
+  const bool many = std::ranges::max(fit.model.rows()) > searched_for_white_noise;
   fit.noise = {};  // frees memory: it is large, and the search needs as much
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
-  fit.noise = noise_of(fit.model->runs(), {adopted ? found.share : 0});
-  if (adopted) fit.minimum = search(*fit.model, fit.system(), {fit.minimum.theta}, options);
+  fit.noise = noise_of(fit.model.runs(), {adopted ? found.share : 0});
+  if (adopted) fit.minimum = search(fit.model, fit.system(), {fit.minimum.theta}, options);
   report(fit);
 }
 
@@ -112,8 +112,8 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
 
 Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
                 std::shared_ptr<const Noise> noise, const FitOptions& options) {
-  auto model = std::make_shared<const Model>(std::move(runs), start.parameters);
-  Minimum minimum = search(*model, system_of(model, noise), start.starts, options);
+  Model model(std::move(runs), start.parameters);
+  Minimum minimum = search(model, system_of(model, noise), start.starts, options);
   Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
   report(fit);
   return fit;
@@ -122,7 +122,7 @@ Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
 Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
   const auto& theta = joint.minimum.theta;
   const Parameters& all = joint.parameters();
-  ObservedRun run = joint.model->runs()[r];
+  ObservedRun run = joint.model.runs()[r];
   const Parameters own = all.of_one_run();
   run.body.slope = all.slope(theta, run.body.slope);
   auto noise = noise_of({run}, joint.noise->added());
@@ -153,7 +153,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
     fit = fit_from(*guess, std::move(runs), std::move(noise), options);
     guess->starts.front() = fit.minimum.theta;
     if (options.min_speed <= 0 ||
-        !leave_out_slow(*fit.model, guess->starts.front(), all, rows, options.min_speed))
+        !leave_out_slow(fit.model, guess->starts.front(), all, rows, options.min_speed))
       break;
   }
   allow_for_rounding(fit, options);
@@ -175,14 +175,14 @@ std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
 
 double sum_of_squares(const Fitted& fit) {
   if (!fit.noise->known()) return fit.minimum.rss;
-  const auto& runs = fit.model->runs();
+  const auto& runs = fit.model.runs();
   if (!runs.front().H_of_accelerations) return unweighted(fit);
   double sum = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
     const double unit = (run.body.K + 1) * run.body.R / run.body.g;
     std::vector<double> off =
-        run.H_of_accelerations->times(fit.model->raw_column(fit.minimum.theta, r));
+        run.H_of_accelerations->times(fit.model.raw_column(fit.minimum.theta, r));
     std::ranges::transform(off, run.accelerations, off.begin(), std::minus());
     sum += unit * unit * dot(off, off);
   }

@@ -149,8 +149,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vecto
   std::vector<double> along(Q.size());  // Q^T bias
   std::size_t point = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double way = roll.model->runs()[r].way;
-    std::vector<double> raw = roll.model->raw_column(roll.minimum.theta, r);
+    const double way = roll.model.runs()[r].way;
+    std::vector<double> raw = roll.model.raw_column(roll.minimum.theta, r);
     for (double& value : raw) value *= way;  // along the motion
     const auto shift = [&, by = *runs[r].shift_of](double a) {
       return way * shift_from_acceleration(by.body, by.geometry, way * a);
@@ -216,7 +216,7 @@ Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
     // Behind the stop v and D are noise alone, and where both happen to be positive their
     // logarithms are far from the line.
     const double stop =
-        roll ? roll->model->runs()[r].origin + roll->model->roll(roll->minimum.theta, r).stop_time()
+        roll ? roll->model.runs()[r].origin + roll->model.roll(roll->minimum.theta, r).stop_time()
              : INFINITY;
     rows.push_back(shift_rows(runs[r], options, true, stop));
     all_rows += shift_rows(runs[r], options, false).size(), positive += rows.back().size();

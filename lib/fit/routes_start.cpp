@@ -177,7 +177,7 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
 
 Fitted of_means(Fitted fit, const FitOptions& options) {
   constexpr std::size_t longest = 4096;
-  const auto& runs = fit.model->runs();
+  const auto& runs = fit.model.runs();
   if (!fit.is_roll() || fit.noise->known() || fit.minimum.f.size() <= longest * runs.size())
     return fit;
   std::vector<ObservedRun> few;
@@ -201,7 +201,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
                time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
   std::vector<std::vector<double>> all = starts(thin, q, options);
-  const System system = system_of(std::make_shared<const Model>(std::move(thin_runs), q));
+  const System system = system_of(Model(std::move(thin_runs), q));
   Minimum best{all[0]};
   for (const std::vector<double>& start : all) improve(best, system, start);
   require_near(thin, best.rss, options);

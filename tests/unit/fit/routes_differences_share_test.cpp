@@ -71,8 +71,7 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   const auto rows = usable(Route::velocity, runs);
   const Fitted fit = fit_rolls(Route::velocity, runs, rows, responses_of(runs), {});
   REQUIRE(fit.noise->known());
-  const auto plain = std::make_shared<const Model>(observe(Route::velocity, read, rows, {}, {}),
-                                                   fit.model->parameters());
+  const auto plain = Model(observe(Route::velocity, read, rows, {}, {}), fit.model.parameters());
   const double of_white_noise =
       restricted_likelihood(evaluated(system_of(plain), fit.minimum.theta));
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-3, 10);

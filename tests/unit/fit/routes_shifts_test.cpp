@@ -74,7 +74,7 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         if (hold_b) options.b = 0.3;
         const std::vector<ObservedRun> rows = observed(runs, options, logarithms);
         const Parameters q = parameters_of_shifts(rows, options);
-        const System system = system_of(std::make_shared<const Model>(rows, q));
+        const System system = system_of(Model(rows, q));
         const auto at = [&](const std::vector<double>& theta) {
           std::vector<double> all;
           system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {

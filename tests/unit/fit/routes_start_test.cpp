@@ -55,7 +55,7 @@ TEST_CASE("first guess: the means of many rows are those of all of them, each on
     run.v.push_back(truth.v(run.t.back()) + noise(2e-3));
   }
   const Fitted few = of_means(fit_route(Route::velocity, {run}, {}), {});
-  const auto& [t, y] = std::tie(few.model->runs()[0].t, few.model->runs()[0].y);
+  const auto& [t, y] = std::tie(few.model.runs()[0].t, few.model.runs()[0].y);
   REQUIRE(t.size() == 3334);  // blocks of three, for 10000 are more than twice 4096
   // A block from t = first to t = last has its mean half way and its number of rows between its
   // neighbours': the blocks end where the next ones begin.
