@@ -19,9 +19,8 @@ struct SelectionOptions {
   bool coast = false;      ///< selects the free roll only, which needs the whole run
   bool positions = false;  ///< the column is a position, not a speed (for coast)
 
-  bool all() const {
-    return !coast && outliers == 0 && std::isinf(from) && std::isinf(to);
-  }  ///< true if no sample is left out
+  /// True if no sample is left out.
+  bool all() const { return !coast && outliers == 0 && std::isinf(from) && std::isinf(to); }
 };
 
 class Selection {
