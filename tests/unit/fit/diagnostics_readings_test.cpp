@@ -150,6 +150,9 @@ TEST_CASE("the floor of rounding holds where no reading repeats, but not for gat
   const double rounded = sigma(0.2);
   CHECK(std::abs(sigma(0.25) / rounded - 1) < 0.03);  // b itself is not the same
   CHECK(sigma(0.02) < 0.1 * rounded);
+  // Residuals of 0.4 have errors of their own size: 12 of them, of which 4 parameters take a third
+  // of the freedom, have a variance of 0.16 12/8; that of rounding is 1/12.
+  CHECK(std::abs(sigma(0.4) / rounded / std::sqrt(0.16 * 12 / 8 * 12) - 1) < 0.05);
 }
 
 // x = n q (2 N - n) lies on the grid q, or a coarser one, and on a parabola, the roll for b = 0:
