@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/number.h"
 
-#include <fmt/core.h>
+#include <fmt/compile.h>
 
 #include <algorithm>
 #include <array>
@@ -145,6 +145,10 @@ char* write_number(char* to, double value, int digits) {
     if (std::abs(value) < 1e308 || is_number({to, end})) return end;
   }
   return write_shortest(to, value);
+}
+
+char* write_shortest(char* to, double value) {
+  return fmt::format_to(to, FMT_COMPILE("{}"), value);
 }
 
 std::string replace_all(

@@ -71,7 +71,7 @@ std::string to_text(const Estimate&);
 
 /// Writes the shortest text that reads back to the same double and, of several that short, the one
 /// closest to it, in the form of fmt's "{}": 0.001, 1.5, 1e-04, 1e+16. The value is finite.
-/// Returns the end of the text, at most 24 bytes behind `to`; writes up to 32 bytes.
+/// Returns the end of the text, at most 24 bytes behind `to`.
 char* write_shortest(char* to, double value);
 
 }  // namespace rolling
