@@ -4,128 +4,34 @@
 #include <fmt/compile.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #ifndef __cpp_lib_to_chars
-#include <stdlib.h>
-
-#include <cerrno>
-#if defined(__APPLE__) || defined(__FreeBSD__)
-#include <xlocale.h>
-#else
-#include <locale.h>
+#include <fast_float/fast_float.h>
 #endif
-#endif
-
-#include "base/double_double.h"
 
 namespace rolling {
-namespace {
 
-constexpr auto power_of_ten = [] {
-  std::array<double, 23> powers{};  // all that are exact
-  double power = 1;
-  for (double& entry : powers) entry = power, power *= 10;
-  return powers;
-}();
-
-/// digits / 10^decimals, correctly rounded; false if this method cannot decide the rounding. The
-/// remainder of the quotient is exact, so the sum of both has an error of 2^-52 of its last bit:
-/// only a value that is so close to the middle of two doubles is undecided.
-bool divide(std::uint64_t digits, std::size_t decimals, double& value) {
-  const double power = power_of_ten[decimals], most = static_cast<double>(digits),
-               quotient = most / power;
-  const DoubleDouble product = two_product(quotient, power);
-  const auto lost =
-      static_cast<double>(static_cast<std::int64_t>(digits - static_cast<std::uint64_t>(most)));
-  const double rest = (((most - product.hi) - product.lo) + lost) / power;
-  value = quotient + rest * (1 + 0x1p-40);
-  return value == quotient + rest * (1 - 0x1p-40);
-}
-
-// Reads eight digits at a time (Lemire 2021, Software: Practice and Experience 51, 1700): digit by
-// digit, each step would wait for the one before. The first digit is the lowest byte.
-std::uint64_t load_eight(const char* from) {
-  std::uint64_t bytes;
-  std::memcpy(&bytes, from, sizeof bytes);
-  if constexpr (std::endian::native == std::endian::big) bytes = __builtin_bswap64(bytes);
-  return bytes;
-}
-bool is_digits(std::uint64_t eight) {
-  constexpr std::uint64_t high = 0xF0F0F0F0F0F0F0F0, zeros = 0x3030303030303030;
-  return ((eight & high) == zeros) && (((eight + 0x0606060606060606) & high) == zeros);
-}
-/// Combines digits to pairs, then pairs to fours, then fours to eight.
-std::uint64_t number_of(std::uint64_t eight) {
-  eight = (eight & 0x0F0F0F0F0F0F0F0F) * (10 * 256 + 1) >> 8;
-  eight = (eight & 0x00FF00FF00FF00FF) * (100 * 65536 + 1) >> 16;
-  return (eight & 0x0000FFFF0000FFFF) * (10000 * (1ULL << 32) + 1) >> 32;
-}
-
-/// For the numbers that the two exact methods below cannot read: with an exponent, with more than
-/// 19 digits, or close to the middle of two doubles.
-[[gnu::noinline]] const char* read_any_number(const char* const begin, const char* const end,
-                                              double& value) {
+// Where the C++ library cannot read doubles (libc++ before its version 20), fast_float can.
 #ifdef __cpp_lib_to_chars
-  // from_chars does not accept a plus in front.
-  const auto [behind, status] = std::from_chars(begin + (*begin == '+'), end, value);
-  return status == std::errc() ? behind : begin;
+using std::from_chars;
 #else
-  // libc++ has from_chars of integers alone up to its version 19. strtod rounds correctly in
-  // glibc, macOS and FreeBSD. It reads more than from_chars does, as hexadecimal digits, but
-  // nothing more that is written with these characters alone.
-  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
-  const std::string_view rest(begin, end);
-  const std::string text(rest.substr(0, rest.find_first_not_of("+-.0123456789eE")));
-  char* behind = nullptr;
-  errno = 0;
-  const double read = ::strtod_l(text.c_str(), &behind, plain);
-  const bool too_large = errno == ERANGE && (read > 1 || read < -1),
-             too_small = read == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
-  if (too_large || too_small) return begin;
-  value = read;
-  return begin + (behind - text.c_str());
+using fast_float::from_chars;
 #endif
-}
-
-}  // namespace
 
 const char* read_number(const char* const begin, const char* const end, double& value) {
-  const char* at = begin;
-  const bool negative = at != end && *at == '-', sign = negative || (at != end && *at == '+');
-  at += sign;
-  std::uint64_t digits = 0;
-  const auto take_digits = [&] {
-    const char* const from = at;
-    for (unsigned digit; at != end && (digit = static_cast<unsigned>(*at) - '0') <= 9; ++at)
-      digits = 10 * digits + digit;
-    return static_cast<std::size_t>(at - from);
-  };
-  std::size_t count = take_digits(), decimals = 0;
-  if (at != end && *at == '.') {
-    const char* const point = at++;
-    for (std::uint64_t eight; end - at >= 8 && is_digits(eight = load_eight(at)); at += 8)
-      digits = 100'000'000 * digits + number_of(eight);
-    take_digits();
-    count += decimals = static_cast<std::size_t>(at - point - 1);
-  }
-  if (count == 0) return begin;  // inf, nan and +-1 too
-  if (at != end && (*at | 32) == 'e') return read_any_number(begin, end, value);
-  if (count > 19)  // `digits` holds 19 digits at least; leading zeros do not count
-    for (const char* zero = begin + sign; zero != at && (*zero == '0' || *zero == '.'); ++zero)
-      count -= *zero == '0';
-  if (count > 19 || decimals >= power_of_ten.size()) return read_any_number(begin, end, value);
-  double size;
-  if (digits <= 1ULL << 53)
-    size = static_cast<double>(static_cast<std::int64_t>(digits)) /
-           power_of_ten[decimals];  // of exact numbers: rounds once
-  else if (!divide(digits, decimals, size)) return read_any_number(begin, end, value);
-  value = negative ? -size : size;
-  return at;
+  // from_chars accepts no plus, but it does inf and nan.
+  const char* const digits = begin + (begin != end && (*begin == '+' || *begin == '-'));
+  if (digits == end || !((*digits >= '0' && *digits <= '9') || *digits == '.')) return begin;
+  double read;
+  const auto [behind, status] = from_chars(*begin == '+' ? digits : begin, end, read);
+  if (status != std::errc() || !std::isfinite(read)) return begin;
+#ifndef __cpp_lib_to_chars  // fast_float has no error for what is too small
+  const std::string_view text(begin, behind);
+  if (read == 0 && text.find_first_of("123456789") < text.find_first_of("eE")) return begin;
+#endif
+  value = read;
+  return behind;
 }
 
 bool parse_number(std::string_view field, double& value) {
