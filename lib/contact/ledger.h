@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/double_double.h"
+#include "base/two_sum.h"
 #include "base/error.h"
 #include "contact/contact.h"
 
@@ -78,7 +78,7 @@ class Integral {
       double part = 0.5 * h * (y + y_);
       if (h <= most_times * k && y != 0 && y_ != 0)
         part -= h * h / (6 * (h + k) * k) * (rise * k - last_rise_ * h);
-      const DoubleDouble sum = two_sum(sum_, part);
+      const TwoSum sum = two_sum(sum_, part);
       sum_ = sum.hi, error_ += sum.lo;
       last_step_ = h, last_rise_ = rise;
     }

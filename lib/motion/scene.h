@@ -50,8 +50,8 @@ class Motion {
   virtual unsigned long evaluations() const { return 0; }
 };
 
-/// closed: ClosedForm. exact: integrals over speed, by Roll. solver: a differential equation, by
-/// this stepper.
+/// closed, exact: integrals over speed, by Roll, which are closed forms for some scenes. solver: a
+/// differential equation, by this stepper.
 struct Method {
   enum { closed, exact, solver } kind;
   Stepper stepper = Stepper::rk8pd;

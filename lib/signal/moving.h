@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/double_double.h"
+#include "base/two_sum.h"
 #include "signal/signal.h"
 
 namespace rolling {
@@ -22,7 +22,7 @@ class ExactSum {
   void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
   /// Adds y and subtracts `old`.
   void exchange(double y, double old) {
-    const DoubleDouble change = two_sum(y, -old);  // usually exact for neighbours in a column
+    const TwoSum change = two_sum(y, -old);  // usually exact for neighbours in a column
     if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
     add(y);
     subtract(old);
@@ -54,21 +54,21 @@ class ExactSum {
       if (size == at.size()) at.resize(2 * size);
       std::size_t left = 0;
       for (std::size_t i = 0; i + 1 < size; ++i) {
-        const DoubleDouble sum = two_sum(y, at[i]);
+        const TwoSum sum = two_sum(y, at[i]);
         at[left] = sum.lo;
         left += sum.lo != 0;
         y = sum.hi;
       }
-      const DoubleDouble sum = two_sum(y, at[size - 1]);
+      const TwoSum sum = two_sum(y, at[size - 1]);
       at[left] = sum.lo;
       at[left + 1] = sum.hi;
       size = left + 2;
     }
     bool is_zero() const { return size == 2 && at[0] == 0 && at[1] == 0; }
     double over(std::size_t n) const {
-      DoubleDouble sum = quick_two_sum(at[size - 1], at[size - 2]);
+      TwoSum sum = quick_two_sum(at[size - 1], at[size - 2]);
       for (std::size_t i = size - 2; i-- > 0;) {
-        const DoubleDouble next = quick_two_sum(sum.hi, at[i]);
+        const TwoSum next = quick_two_sum(sum.hi, at[i]);
         sum = {next.hi, sum.lo + next.lo};
       }
       sum = quick_two_sum(sum.hi, sum.lo);

@@ -18,7 +18,7 @@
 #include <functional>
 #include <vector>
 
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "sensor/sonar.h"
 #include "signal/method.h"
 
@@ -61,7 +61,8 @@ struct Roll {
 };  // v and a: the truth
 
 Roll roll(const Scene& scene, unsigned long seed) {
-  ClosedForm motion({1.375, 0.04, scene.K}, scene.law, 0.5, 0);
+  const auto motion_owned = closed_roll({1.375, 0.04, scene.K}, scene.law, 0.5, 0);
+  Motion& motion = *motion_owned;
   SonarOptions options;
   options.seed = seed, options.lost = 0;
   Roll out;

@@ -6,7 +6,7 @@ set -eu
 # Flags that let the compiler drop the exact sums are refused in one line, whatever the processor.
 for flag in -ffast-math -Ofast -ffinite-math-only; do
   # shellcheck disable=SC2086  # the compiler may be two words
-  said=$(${CXX:-g++} $flag -std=c++20 -Ilib -E lib/base/double_double.cpp 2>&1 >/dev/null) && exit 1
+  said=$(${CXX:-g++} $flag -std=c++20 -Ilib -E -x c++ lib/base/two_sum.h 2>&1 >/dev/null) && exit 1
   [ "$(grep -c 'error:.*build it without -ffast-math' <<<"$said")" = 1 ] || { echo "$said"; exit 1; }
 done
 [ -x build/fused/fused ] || { echo 'this processor has no x86-64-v3'; exit 77; }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "unit/catch.h"
 
 using namespace rolling;
@@ -88,7 +88,8 @@ TEST_CASE("an exponent that is wrong meets the closure and not the balance at ev
           "[contact]") {
   // The coefficient of b = 0 that dissipates as much as the true law over the whole run.
   const Body body{1.375, 0.04, 0.5};
-  ClosedForm roll(body, {1.87e-3, 0.215}, 0.5, 0);
+  const auto roll_owned = closed_roll(body, {1.87e-3, 0.215}, 0.5, 0);
+  Motion& roll = *roll_owned;
   Balance balance(body);
   for (int i = 0; i <= 240; ++i) {
     const double t = i == 240 ? roll.stop_time() : 0.01 * i;
@@ -106,7 +107,8 @@ TEST_CASE("a right law does not fail by the quadrature", "[contact]") {
   const Body body{1.375, 0.04, 0.5};
   for (const double b : {0.0, 0.0244, 0.215, 0.5, 0.8})
     for (const double dt : {0.01, 0.04, 0.1}) {
-      ClosedForm roll(body, {1.87e-3, b}, 0.5, 0);
+      const auto roll_owned = closed_roll(body, {1.87e-3, b}, 0.5, 0);
+      Motion& roll = *roll_owned;
       Balance balance(body);
       const double T = std::min(roll.stop_time(), 6.0);
       for (int i = 0; i * dt < T; ++i) {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "contact/contact.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
@@ -82,7 +82,8 @@ TEST_CASE("ledger: over a whole run the outflow is the energy of the start (Eq. 
   for (const double K : {0.5, 0.83}) {
     const Body body{1.375, 0.04, K};
     const double energy = 0.5 * (K + 1) * body.m * 0.25;
-    ClosedForm closed(body, {1.87e-3, 0.215}, 0.5, 0);
+    const auto closed_owned = closed_roll(body, {1.87e-3, 0.215}, 0.5, 0);
+    Motion& closed = *closed_owned;
     CHECK(std::abs(whole(closed, body, Geometry::approximate) / energy - 1) < 1e-9);
     const auto exact =
         start({body, Geometry::exact, PowerLaw{0.03, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);

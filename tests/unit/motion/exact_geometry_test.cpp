@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "motion/roll.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
@@ -137,7 +137,8 @@ TEST_CASE("Exact geometry: a shallow shift is the closed form, with a difference
   double before = 0;
   for (const double a : {8e-3, 4e-3, 2e-3, 1e-3}) {
     const auto exact = exact_roll(cylinder, {a, 0.215}, 0.5);
-    ClosedForm closed(cylinder, {a, 0.215}, 0.5, 0);
+    const auto closed_owned = closed_roll(cylinder, {a, 0.215}, 0.5, 0);
+    Motion& closed = *closed_owned;
     exact->seek(0.2 / a * 1e-3);
     closed.seek(0.2 / a * 1e-3);
     const double difference = closed.velocity() - exact->velocity();

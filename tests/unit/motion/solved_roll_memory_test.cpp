@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "motion/scene.h"
 #include "contact/ledger.h"
 #include "unit/catch.h"
@@ -77,7 +77,8 @@ TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0",
     law.seek(0.3);
     return motion.velocity() - law.velocity();
   };
-  ClosedForm closed(cylinder, {0.01, 0.215}, 0.5, 0);
+  const auto closed_owned = closed_roll(cylinder, {0.01, 0.215}, 0.5, 0);
+  Motion& closed = *closed_owned;
   const auto exact =
       start({cylinder, Geometry::exact, PowerLaw{0.01, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
   for (const auto& [geometry, law] : {std::pair<Geometry, Motion*>{Geometry::approximate, &closed},
@@ -174,7 +175,8 @@ TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluatio
   for (const double damping : {0.0, 1e-3, 0.02}) {
     MemoryRoll motion = roll({1e-7, damping});
     CHECK(memory_stepper(scene({1e-7, damping})) == Stepper::rk4imp);
-    ClosedForm law(cylinder, {1.87e-3, 0.215}, 0.5, 0);
+    const auto law_owned = closed_roll(cylinder, {1.87e-3, 0.215}, 0.5, 0);
+    Motion& law = *law_owned;
     motion.seek(2);
     law.seek(2);
     if (damping == 0) CHECK(std::abs(motion.velocity() - law.velocity()) < 1e-7);

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "motion/roll.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
@@ -26,7 +26,8 @@ TEST_CASE("Table: a constant shift is the closed form, and the exact one", "[rol
     const auto approximate = rolled(Geometry::approximate, law, 0.5, 0.2),
                exact = rolled(Geometry::exact, law, 0.5, 0.2),
                same = rolled(Geometry::exact, PowerLaw{a, 0}, 0.5, 0.2);
-    ClosedForm closed(cylinder, {a, 0}, 0.5, 0.2);
+    const auto closed_owned = closed_roll(cylinder, {a, 0}, 0.5, 0.2);
+    Motion& closed = *closed_owned;
     for (const auto& [table, reference] :
          {std::pair<Motion*, Motion*>{approximate.get(), &closed}, {exact.get(), same.get()}}) {
       CHECK(std::abs(table->stop_time() / reference->stop_time() - 1) < 1e-14);

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "base/error.h"
-#include "motion/closed_form.h"
+#include "unit/motion/closed_roll.h"
 #include "unit/catch.h"
 
 using namespace rolling;
 
 namespace {
 
-ClosedForm roll() { return {{1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 7}; }
+std::unique_ptr<Motion> roll() { return closed_roll({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5, 7); }
 
 std::vector<SonarSample> run(Motion& motion, const SonarOptions& options) {
   std::vector<SonarSample> samples;
@@ -24,7 +24,8 @@ std::vector<SonarSample> run(Motion& motion, const SonarOptions& options) {
 }
 
 std::vector<SonarSample> run(const SonarOptions& options) {
-  ClosedForm motion = roll();
+  const auto owned = roll();
+  Motion& motion = *owned;
   return run(motion, options);
 }
 
@@ -44,7 +45,8 @@ TEST_CASE("sonar: without noise it sees rest, push, free roll, rest", "[sensor]"
   SonarOptions options = perfect();
   options.rate = 1000;
   const auto samples = run(options);
-  ClosedForm motion = roll();
+  const auto owned = roll();
+  Motion& motion = *owned;
   const double stop = motion.stop_time();
   CHECK(samples.front().t == 0);
   CHECK(std::abs(samples.back().t - (1.5 + stop + 1)) <= 1e-3);
@@ -150,15 +152,15 @@ TEST_CASE("sonar: until, never stopping, at rest all the time, too many rows", "
   SonarOptions options;
   options.until = 1;
   CHECK(std::abs(run(options).back().t - 2.5) < 0.04);
-  ClosedForm never({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5, 0),
-      still({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0, 0);
+  const auto never = closed_roll({1.375, 0.04, 0.5}, {1.87e-3, 1.5}, 0.5),
+             still = closed_roll({1.375, 0.04, 0.5}, {1.87e-3, 0.2}, 0);
   SonarOptions beyond;  // the stop
   beyond.until = 10;
   CHECK(std::abs(run(beyond).back().t - 11.5) < 0.04);
   SonarOptions endless;
   endless.rate = 1e9, endless.until = 1e9;
   CHECK_THROWS_AS(run(endless), Error);
-  CHECK_THROWS_AS(run(never, {}), Error);
-  CHECK(std::abs(run(never, options).back().t - 2.5) < 0.04);
-  for (const auto& s : run(still, perfect())) CHECK(s.x == 0.3);
+  CHECK_THROWS_AS(run(*never, {}), Error);
+  CHECK(std::abs(run(*never, options).back().t - 2.5) < 0.04);
+  for (const auto& s : run(*still, perfect())) CHECK(s.x == 0.3);
 }
