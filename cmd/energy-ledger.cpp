@@ -22,7 +22,7 @@ struct Moment {
   const LawOfFile& law;
 };
 
-constexpr Quantity<double (*)(const Moment&)> quantities[] = {
+constexpr Computed<double (*)(const Moment&)> quantities[] = {
     {"omega", "rad/s", [](const Moment& m) { return m.now.omega(); }},
     {"p", "N s", [](const Moment& m) { return m.now.p(); }},
     {"L", "N m s", [](const Moment& m) { return m.now.L(); }},

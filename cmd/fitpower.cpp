@@ -174,9 +174,11 @@ int main(int argc, char** argv) {
       return 0;
     }
     // In a file without names no column is v or D by its place where --use says which is t.
-    Reader& in =
-        tool.read(!given_route && tool.uses("t") ? std::vector<std::string>{}
-                                                 : columns_of(given_route.value_or(Route::shift)));
+    std::vector<std::string> names;
+    if (given_route || !tool.uses("t"))
+      for (const Quantity q : columns_of(given_route.value_or(Route::shift)))
+        names.emplace_back(name_of(q));
+    Reader& in = tool.read(names);
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);

@@ -22,7 +22,7 @@ const std::map<std::string, Method> methods = [] {
   return all;
 }();
 
-constexpr Quantity<double (*)(double t, Motion&)> quantities[] = {
+constexpr Computed<double (*)(double t, Motion&)> quantities[] = {
     {"t", "s", [](double t, Motion&) { return t; }},
     {"x", "m", [](double, Motion& motion) { return motion.position(); }},
     {"v", "m/s", [](double, Motion& motion) { return motion.velocity(); }},
@@ -222,7 +222,7 @@ class RowWriter {
  private:
   Output& out_;
   const Task& task_;
-  std::vector<Quantity<double (*)(double t, Motion&)>> row_;
+  std::vector<Computed<double (*)(double t, Motion&)>> row_;
   std::vector<double> numbers_;
 };
 

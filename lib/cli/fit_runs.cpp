@@ -13,14 +13,6 @@
 namespace rolling {
 namespace {
 
-/// The column of a run with this short name.
-std::vector<double> FitRun::*column_of(std::string_view name) {
-  return name == "t"   ? &FitRun::t
-         : name == "x" ? &FitRun::x
-         : name == "v" ? &FitRun::v
-                       : &FitRun::D;
-}
-
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
 void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
   History history = history_of(in.history(), run.t);
@@ -61,26 +53,25 @@ Estimate of_run(const std::vector<Estimate>& values, const char* option, std::si
 
 }  // namespace
 
-std::vector<std::string> columns_of(Route route) {
-  if (!is_trajectory(route)) return {"v", "D"};
-  return {"t", route == Route::position ? "x" : "v"};
+std::vector<Quantity> columns_of(Route route) {
+  if (!is_trajectory(route)) return {Quantity::v, Quantity::D};
+  return {Quantity::t, fitted_column(route)};
 }
 
 std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
-  std::map<std::string, std::size_t> slots;
-  for (const std::string& name : columns_of(route)) slots[name] = in.need(name);
+  PerQuantity<std::optional<std::size_t>> slots;
+  for (const Quantity q : columns_of(route)) slots[q] = in.need(std::string(name_of(q)));
   std::vector<FitRun> runs;
   while (in.next_run()) {
     FitRun& run = runs.emplace_back();
     run.name = in.run_name();
     if (!in.history().empty())  // the `##` lines are compared with the other columns
-      for (const std::string name : {"t", "x", "v", "D"})
-        if (in.find(name) && !slots.contains(name))
-          slots[name] = name == "t" ? in.need("t") : in.want(name);
-    std::vector<std::pair<std::size_t, std::vector<double>*>> columns;
-    for (const auto& [name, slot] : slots) columns.push_back({slot, &(run.*column_of(name))});
+      for (const Quantity q : {Quantity::t, Quantity::x, Quantity::v, Quantity::D})
+        if (const std::string name(name_of(q)); in.find(name) && !slots[q])
+          slots[q] = q == Quantity::t ? in.need(name) : in.want(name);
     while (in.next())
-      for (const auto& [slot, column] : columns) column->push_back(in[slot]);
+      for (const Quantity q : all_quantities)
+        if (slots[q]) run[q].push_back(in[*slots[q]]);
     set_filters(tool, in, route, run);
   }
   warn_of_lost_history(tool, runs);
@@ -120,8 +111,8 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   std::set<std::vector<std::string_view>> different;  // the readings, as their bytes
   for (const FitRun& run : runs) {
     std::vector<std::string_view> readings;
-    for (const std::string& name : columns_of(route)) {
-      const std::vector<double>& x = run.*column_of(name);
+    for (const Quantity q : columns_of(route)) {
+      const std::vector<double>& x = run[q];
       readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
     }
     if (readings.back().size() >= 10 * sizeof(double) && !different.insert(readings).second)

@@ -14,8 +14,8 @@
 
 namespace rolling {
 
-/// The columns that a route fits, by their short names; the one that it compares stands last.
-std::vector<std::string> columns_of(Route);
+/// The columns that a route fits; the one that it compares stands last.
+std::vector<Quantity> columns_of(Route);
 
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
 /// of `##` lines that are not trusted or that one run lacks, and of rows that are left out because

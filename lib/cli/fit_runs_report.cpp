@@ -151,9 +151,9 @@ class Remarks {
   /// then, which residuals of few rows do not show. True if it does.
   bool rounding(const FitRun& run) {
     const bool positions = fit_.route == Route::position;
-    const std::vector<double>& y = positions ? run.x : run.v;
-    const std::string name = positions ? "x" : "v";
-    if (std::ranges::count(run.filters, name, &LinearFilter::to) > 0) return false;
+    const Quantity fitted = fitted_column(fit_.route);
+    const std::vector<double>& y = run[fitted];
+    if (std::ranges::count(run.filters, fitted, &LinearFilter::to) > 0) return false;
     std::size_t rows = 0, repeats = 0, waiting = 0;
     for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
       ++waiting;

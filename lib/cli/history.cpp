@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
-#include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -40,7 +38,7 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
 }
 
 /// A streaming filter as one of whole columns.
-LinearFilter linear(const std::string& from, const std::string& to, const SignalOptions& options,
+LinearFilter linear(Quantity from, Quantity to, const SignalOptions& options,
                     std::size_t reach) {
   return {from, to, reach,
           [options](auto t, auto y) {
@@ -54,7 +52,7 @@ LinearFilter linear(const std::string& from, const std::string& to, const Signal
 /// The way over the time from row i - 1 to row i, as the speed of row i or (`forward`) of row i -
 /// 1. The row without a neighbour has the speed of the one beside it.
 LinearFilter step(bool forward) {
-  return {"x", "v", 1, [forward](auto t, auto x) {
+  return {Quantity::x, Quantity::v, 1, [forward](auto t, auto x) {
             const std::size_t n = x.size();
             std::vector<double> v(n);
             for (std::size_t i = 1; i < n; ++i)
@@ -66,8 +64,8 @@ LinearFilter step(bool forward) {
 
 /// Removes the filters of a column and of what was made of it: a derivative of the same name has
 /// taken its place (in the file it has another name since).
-void forget(FilterChain& filters, const std::string& column) {
-  std::set<std::string> gone{column};
+void forget(FilterChain& filters, Quantity made) {
+  std::set<Quantity> gone{made};
   std::erase_if(filters, [&](const LinearFilter& filter) {
     if (gone.contains(filter.from)) gone.insert(filter.to);
     return gone.contains(filter.to);
@@ -86,14 +84,14 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
   FilterChain& filters = history.filters;
   if (words[0] == "shift-from-accel") {
     believe(history.shift_of.has_value());
-    filters.push_back(
-        {"a", "D", 0, [](auto, auto a) { return std::vector<double>(a.begin(), a.end()); }, true});
+    filters.push_back({Quantity::a, Quantity::D, 0,
+                       [](auto, auto a) { return std::vector<double>(a.begin(), a.end()); }, true});
     return true;
   }
   const bool derivative = words[0] == "differentiate";
   if (!derivative && words[0] != "smooth") return true;
   believe(words.size() > 2);
-  const std::string &column = words[1], &method = words[2];
+  const std::string& method = words[2];
   const bool coast = method == "coast", from = method == "from", to = method == "to",
              outliers = method == "outliers";
   if (!derivative && (coast || from || to || outliers)) {
@@ -109,9 +107,11 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
                      fmt::format("{}", fmt::join(words.begin() + 2, words.end(), " ")));
   believe(options.has_value());
   if (!options->method->linear) return false;
-  const std::string made = derivative ? derivative_of({column}).name : column;
-  if (derivative) forget(filters, made);
-  filters.push_back(linear(column, made, *options, reach(*options, t)));
+  const auto column = quantity_named(words[1]),
+             made = column && derivative ? derivative_of(*column) : column;
+  if (!made) return true;  // of no column that is fitted
+  if (derivative) forget(filters, *made);
+  filters.push_back(linear(*column, *made, *options, reach(*options, t)));
   // The matrices of wider filters would not fit into memory.
   constexpr std::size_t most = 50'000'000;
   std::size_t wide = 0;
@@ -123,9 +123,8 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
 
 /// Leaves out the filters that none of these columns has gone through. Returns the raw columns of
 /// which the filters made them.
-std::set<std::string> keep_filters_of(const std::vector<std::string>& fitted,
-                                      FilterChain& filters) {
-  std::set<std::string> columns(fitted.begin(), fitted.end());
+std::set<Quantity> keep_filters_of(const std::vector<Quantity>& fitted, FilterChain& filters) {
+  std::set<Quantity> columns(fitted.begin(), fitted.end());
   FilterChain kept;
   for (auto filter = filters.rbegin(); filter != filters.rend(); ++filter)
     if (columns.erase(filter->to) > 0) {
@@ -136,11 +135,21 @@ std::set<std::string> keep_filters_of(const std::vector<std::string>& fitted,
   return columns;
 }
 
+/// "t and x"
+std::string names_of(const std::set<Quantity>& quantities) {
+  std::string names;
+  for (const Quantity q : quantities) add_item(names, name_of(q), " and ");
+  return names;
+}
+
 }  // namespace
 
 Column derivative_of(const Column& column) {
-  if (column.name == "x") return {"v", "m/s"};
-  if (column.name == "v") return {"a", "m/s^2"};
+  const auto of = quantity_named(column.name);
+  if (const auto made = of ? derivative_of(*of) : std::nullopt) {
+    const std::string name(name_of(*made));
+    return {name, std::string(si_unit(name))};
+  }
   return {"d" + column.name, column.unit.empty() ? "" : column.unit + "/s"};
 }
 
@@ -207,16 +216,16 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
 
 // How many rows were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
-History give_filters(History history, FitRun& run, const std::vector<std::string>& columns) {
+History give_filters(History history, FitRun& run, const std::vector<Quantity>& columns) {
   run.shift_of = history.shift_of;
   const Mismatch found = mismatch(history.filters, run);
   history.cut_begin |= found.begin;
   history.cut_end |= found.end;
-  std::map<std::string, std::size_t> windows;  // the rows on either side that a column has read
+  PerQuantity<std::size_t> windows{};  // the rows on either side that a column has read
   for (const LinearFilter& filter : history.filters)
     windows[filter.to] = windows[filter.from] + filter.reach;
   std::size_t widest = 0;
-  for (const std::string& column : columns) widest = std::max(widest, windows[column]);
+  for (const Quantity column : columns) widest = std::max(widest, windows[column]);
   history.left_out = widest * (std::size_t{history.cut_begin} + history.cut_end);
   const auto distrust = [&](std::string why) {
     history = {.shift_of = history.shift_of, .doubt = std::move(why)};
@@ -228,22 +237,20 @@ History give_filters(History history, FitRun& run, const std::vector<std::string
     distrust(
         "it was cut after the filters that its `##` lines name, and fewer than 10 rows are far "
         "enough from the cut");
-  std::set<std::string> raw = keep_filters_of(columns, history.filters);
-  raw.erase("t");
-  if (raw != std::set<std::string>{"x"} && raw != std::set<std::string>{"v"}) {
+  std::set<Quantity> raw = keep_filters_of(columns, history.filters);
+  raw.erase(Quantity::t);
+  if (raw != std::set{Quantity::x} && raw != std::set{Quantity::v}) {
     if (change_numbers(history.filters))
       distrust(fmt::format("its filtered columns were made of {}, not of x or v alone",
-                           fmt::join(raw, " and ")));
+                           names_of(raw)));
     history.filters.clear();
   }
   run.filters = history.filters;
   run.shift_of = history.shift_of;
-  for (const auto& [name, readings] : {std::pair("x", &run.x), {"v", &run.v}, {"D", &run.D}}) {
-    if (readings->empty()) continue;
-    const std::size_t n = std::min(windows[name], readings->size());
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (history.cut_begin) std::fill_n(readings->begin(), n, nan);
-    if (history.cut_end) std::fill_n(readings->rbegin(), n, nan);
+  for (const Quantity q : {Quantity::x, Quantity::v, Quantity::D}) {
+    const std::size_t n = std::min(windows[q], run[q].size());
+    if (history.cut_begin) std::fill_n(run[q].begin(), n, NAN);
+    if (history.cut_end) std::fill_n(run[q].rbegin(), n, NAN);
   }
   return history;
 }
@@ -252,10 +259,10 @@ std::vector<LinearFilter> filters_of_sensors() {
   std::vector<LinearFilter> filters{step(false), step(true)};
   for (const char* method : {"central", "vernier", "pasco"}) {
     const SignalOptions options = signal_options(derivative_methods, method).value();
-    filters.push_back(linear("x", "v", options, options.method->reach));
+    filters.push_back(linear(Quantity::x, Quantity::v, options, options.method->reach));
   }
   for (std::size_t width : {2U, 3U, 5U})
-    filters.push_back({"v", "v", width / 2, [width](auto, auto y) {
+    filters.push_back({Quantity::v, Quantity::v, width / 2, [width](auto, auto y) {
                          std::vector<double> means(y.size());
                          for (std::size_t i = 0; i + width <= y.size(); ++i)
                            means[i + width / 2] = std::accumulate(&y[i], &y[i] + width, 0.0) /

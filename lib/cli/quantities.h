@@ -17,7 +17,7 @@
 namespace rolling {
 
 template <typename Function>
-struct Quantity {
+struct Computed {
   std::string_view name, unit;
   Function of;
 
@@ -27,9 +27,9 @@ struct Quantity {
 /// The quantities of a list like `t,x,v`, in its order. Throws Error for an unknown name and for a
 /// name that occurs twice.
 template <typename Function, std::size_t count>
-std::vector<Quantity<Function>> chosen(const std::string& list,
-                                       const Quantity<Function> (&all)[count]) {
-  std::vector<Quantity<Function>> chosen;
+std::vector<Computed<Function>> chosen(const std::string& list,
+                                       const Computed<Function> (&all)[count]) {
+  std::vector<Computed<Function>> chosen;
   for (const std::string& name : split_names(list, ',')) {
     const auto same = [&](const auto& quantity) { return quantity.name == name; };
     const auto found = std::ranges::find_if(all, same);

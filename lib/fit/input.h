@@ -3,6 +3,7 @@
 // whether their columns are what their filters make of each other, and what is fitted.
 #pragma once
 
+#include "base/quantity.h"
 #include "contact/contact.h"
 #include "contact/law.h"
 #include "noise/response.h"
@@ -29,7 +30,11 @@ inline double acceleration_of(const ShiftOf& by, double D) {
 /// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
 /// v; position reads t and x.
 struct FitRun {
-  std::vector<double> t, x, v, D;
+  std::vector<double> t, x, v, a, D;
+  std::vector<double>& operator[](Quantity q) { return this->*columns[q]; }
+  const std::vector<double>& operator[](Quantity q) const { return this->*columns[q]; }
+  static const PerQuantity<std::vector<double> FitRun::*> columns;
+
   Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only); runs
                         ///< that give the same number with the same uncertainty share its error
   FilterChain filters;  ///< the filters that made the fitted columns of x alone or of v alone, in
@@ -39,10 +44,18 @@ struct FitRun {
   std::string name = {};  ///< for messages
 };
 
+inline constexpr PerQuantity<std::vector<double> FitRun::*> FitRun::columns{
+    {&FitRun::t, &FitRun::x, &FitRun::v, &FitRun::a, &FitRun::D}};
+
 enum class Route { loglog, shift, velocity, position };
 /// True if the route fits v or x as a function of t; the others fit D(v).
 inline bool is_trajectory(Route route) {
   return route == Route::velocity || route == Route::position;
+}
+
+/// The column that is fitted; of shifts behind known filters it is that of the speeds (model.h).
+inline Quantity fitted_column(Route route) {
+  return route == Route::position ? Quantity::x : Quantity::v;
 }
 
 struct FitOptions {

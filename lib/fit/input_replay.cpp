@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "base/median.h"
@@ -19,12 +18,10 @@ struct Recomputed {
   std::size_t reach = 0;
 };
 
-/// The column of a run with this name; empty if it has none.
-std::vector<double> column_of_run(const FitRun& run, const std::string& name) {
-  if (name == "x") return run.x;
-  if (name == "v") return run.v;
-  if (name == "D" && run.shift_of) return run.D;
-  return {};
+/// The column of a run that its filters may have made; empty if it is not known.
+std::vector<double> column_of_run(const FitRun& run, Quantity q) {
+  if (q == Quantity::t || (q == Quantity::D && !run.shift_of)) return {};
+  return run[q];
 }
 
 /// The output of a filter. What may have read a missing reading is missing, too.
@@ -106,17 +103,17 @@ void compare(std::span<const double> t, const Recomputed& computed,
 
 Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
   Mismatch result;
-  std::map<std::string, Recomputed> columns;
+  PerQuantity<Recomputed> columns;
   for (std::size_t k = 0; k < filters.size(); ++k) {
     const LinearFilter& filter = filters[k];
-    const auto changed_from = [&](std::size_t first, const std::string& name) {
+    const auto changed_from = [&](std::size_t first, Quantity q) {
       return std::any_of(filters.begin() + static_cast<std::ptrdiff_t>(first), filters.end(),
-                         [&](const LinearFilter& later) { return later.to == name; });
+                         [&](const LinearFilter& later) { return later.to == q; });
     };
     Recomputed input = columns[filter.from];
     if (!changed_from(k, filter.from))
       if (auto of_run = column_of_run(run, filter.from); !of_run.empty()) {
-        if (filter.from == "D")
+        if (filter.from == Quantity::D)
           for (double& y : of_run) y = acceleration_of(*run.shift_of, y);
         input = {std::move(of_run)};
       }
@@ -126,7 +123,7 @@ Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
         changed_from(k + 1, filter.to))
       continue;
     Recomputed computed = output;
-    if (filter.to == "D")  // the filters speak of the acceleration
+    if (filter.to == Quantity::D)  // the filters speak of the acceleration
       for (double& y : computed.values)
         y = shift_from_acceleration(run.shift_of->body, run.shift_of->geometry, y);
     compare(run.t, computed, given, result);

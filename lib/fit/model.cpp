@@ -15,8 +15,8 @@ namespace rolling {
 namespace {
 
 /// The rows of the matrix of a column for the fitted rows.
-Filters filters_of_rows(const Response& response, const char* column, const Rows& rows) {
-  const Filters& H = response.of.at(column);
+Filters filters_of_rows(const Response& response, Quantity q, const Rows& rows) {
+  const Filters& H = response.of[q];
   return rows.size() == H->rows() ? H : std::make_shared<const BandMatrix>(H->of_rows(rows));
 }
 
@@ -85,17 +85,17 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
     seen.body = body;
     seen.geometry = geometry;
     seen.origin = run.t.front();
-    seen.y = taken(route == Route::position ? run.x : run.v, rows[r]);
+    seen.y = taken(run[fitted_column(route)], rows[r]);
     if (route == Route::shift && known) {
       for (std::size_t i : rows[r])
         seen.accelerations.push_back(acceleration_of(*run.shift_of, run.D[i]));
-      seen.H_of_accelerations = filters_of_rows(responses[r], "D", rows[r]);
+      seen.H_of_accelerations = filters_of_rows(responses[r], Quantity::D, rows[r]);
     }
-    const bool position = known ? responses[r].source == "x" : route == Route::position;
+    const bool position = known ? responses[r].source == Quantity::x : route == Route::position;
     seen.column = position ? RawColumn::x : RawColumn::v;
     if (known) {
       seen.t = run.t;
-      seen.H = filters_of_rows(responses[r], route == Route::position ? "x" : "v", rows[r]);
+      seen.H = filters_of_rows(responses[r], fitted_column(route), rows[r]);
     } else {
       seen.t = taken(run.t, rows[r]);
     }

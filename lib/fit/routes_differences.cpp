@@ -180,7 +180,7 @@ std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitO
   try {
     if (!leave_out_irregular(heads, head_rows, reach)) return {};
     const Maker maker = most_likely(heads, head_rows, options, plain);
-    if (!maker.filter || maker.filter->from == "v") return {};
+    if (!maker.filter || maker.filter->from == Quantity::v) return {};
     std::vector<Rows> regular = usable(Route::velocity, all);
     if (!leave_out_irregular(all, regular, maker.filter->reach)) return {};
     Fitted fit = fit_rolls(Route::velocity, all, std::move(regular),

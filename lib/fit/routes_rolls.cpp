@@ -163,7 +163,7 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
 std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
   std::vector<Rows> rows;
   for (const FitRun& run : all) {
-    const auto& y = route == Route::position ? run.x : run.v;
+    const auto& y = run[fitted_column(route)];
     Rows& of_run = rows.emplace_back();
     of_run.reserve(y.size());
     for (std::size_t i = 0; i < y.size(); ++i)

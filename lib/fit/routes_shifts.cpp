@@ -155,8 +155,8 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vecto
     const auto shift = [&, by = *runs[r].shift_of](double a) {
       return way * shift_from_acceleration(by.body, by.geometry, way * a);
     };
-    const BandMatrix D = responses[r].of.at("D")->of_rows(rows[r]),
-                     v = responses[r].of.at("v")->of_rows(rows[r]);
+    const BandMatrix D = responses[r].of[Quantity::D]->of_rows(rows[r]),
+                     v = responses[r].of[Quantity::v]->of_rows(rows[r]);
     const std::vector<double> accelerations = D.times(raw), speeds = v.times(raw);
     const std::size_t begin = B.front().size();
     for (std::vector<double>& column : B) column.resize(begin + raw.size());

@@ -45,7 +45,7 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
     for (std::size_t j = k; j < n; j += spacing) comb[j] = 1;
     const auto response = filter.apply(t, comb);
     if (response.size() != n)
-      fail("a filter of {} gives {} values for {} rows", filter.from, response.size(), n);
+      fail("a filter of {} gives {} values for {} rows", name_of(filter.from), response.size(), n);
     for (std::size_t j = k; j < n; j += spacing) comb[j] = 0;
     for (std::size_t i = 0; i < n; ++i) all[i * spacing + k] = response[i];
   }
@@ -62,15 +62,14 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
 }
 
 Response response_of(const FilterChain& chain, std::span<const double> t) {
-  Response response;
-  response.source = chain.front().from;
+  Response response{.source = chain.front().from, .of = {}};
   response.of[response.source] = std::make_shared<const BandMatrix>(BandMatrix::identity(t.size()));
   for (const auto& filter : chain) {
-    const auto input = response.of.find(filter.from);
-    if (input == response.of.end())
+    const Filters& input = response.of[filter.from];
+    if (!input)
       fail("the filters start from two columns, {} and {}: their noises are not known together",
-           response.source, filter.from);
-    response.of[filter.to] = std::make_shared<const BandMatrix>(probe(filter, t) * *input->second);
+           name_of(response.source), name_of(filter.from));
+    response.of[filter.to] = std::make_shared<const BandMatrix>(probe(filter, t) * *input);
   }
   return response;
 }

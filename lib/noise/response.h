@@ -4,11 +4,10 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "base/quantity.h"
 #include "noise/band_matrix.h"
 
 namespace rolling {
@@ -17,7 +16,7 @@ namespace rolling {
 /// than `reach` samples from i (further than 2 * reach at the ends of a run, where a row may be
 /// one-sided).
 struct LinearFilter {
-  std::string from, to;  ///< short names of the columns
+  Quantity from, to;
   std::size_t reach;
   std::function<std::vector<double>(std::span<const double> t, std::span<const double> y)> apply;
   /// L[i][j] depends on i - j alone, except in the 2 reach + 1 rows at either end.
@@ -33,9 +32,9 @@ BandMatrix probe(const LinearFilter&, std::span<const double> t);
 
 /// The response of a chain of filters to its raw column.
 struct Response {
-  std::string source;  ///< name of the raw column, whose noise is assumed white
+  Quantity source;  ///< the raw column, whose noise is assumed white
   /// The matrix of each column, the raw one included: one row for each reading of the run.
-  std::map<std::string, Filters> of;
+  PerQuantity<Filters> of;
 };
 
 /// The response of a chain on the times t of a run. Throws Error for a chain that starts from more

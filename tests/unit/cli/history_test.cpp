@@ -26,8 +26,8 @@ FilterChain filters_in(const Lines& lines, const Series& t) { return history_of(
 TEST_CASE("history: a smooth line is the moving mean that it names", "[cli]") {
   const FilterChain chain = filters_in({"smooth v mean width 3"}, times);
   REQUIRE(chain.size() == 1);
-  CHECK(chain[0].from == "v");
-  CHECK(chain[0].to == "v");
+  CHECK(chain[0].from == Quantity::v);
+  CHECK(chain[0].to == Quantity::v);
   CHECK(chain[0].reach == 1);
   CHECK(chain[0].apply(times, Series{0, 3, 0, 0, 6, 1}) == Series{0, 1, 1, 2, 7. / 3, 1});
 }
@@ -42,9 +42,9 @@ TEST_CASE("history: a window of seconds reaches as far as it has samples", "[cli
 TEST_CASE("history: a differentiate line is the central derivative, from column to column",
           "[cli]") {
   const Series squares = {0, 1, 4, 9, 16, 25};
-  for (const auto& [from, to] : {std::pair{"x", "v"}, {"v", "a"}, {"w", "dw"}}) {
+  for (const auto& [from, to] : {std::pair{Quantity::x, Quantity::v}, {Quantity::v, Quantity::a}}) {
     const FilterChain chain =
-        filters_in({std::string("differentiate ") + from + " central"}, times);
+        filters_in({fmt::format("differentiate {} central", name_of(from))}, times);
     REQUIRE(chain.size() == 1);
     CHECK(chain[0].from == from);
     CHECK(chain[0].to == to);
@@ -59,8 +59,8 @@ TEST_CASE("history: a shift-from-accel line tells the body and the geometry; D s
     const History history = history_of(
         {std::string("shift-from-accel ") + (exact ? "exact " : "") + "K 0.5 R 0.04 g 6"}, times);
     REQUIRE(history.filters.size() == 1);
-    CHECK(history.filters[0].from == "a");
-    CHECK(history.filters[0].to == "D");
+    CHECK(history.filters[0].from == Quantity::a);
+    CHECK(history.filters[0].to == Quantity::D);
     CHECK(history.filters[0].reach == 0);
     CHECK(history.filters[0].apply(times, Series{-1}) == Series{-1});
     REQUIRE(history.shift_of);
@@ -78,9 +78,9 @@ TEST_CASE("history: the filters of a chain stand in its order, lines of others s
        "shift-from-accel K 0.5 R 0.04 g 9.81", "energy-ledger D"},
       times);
   REQUIRE(chain.size() == 3);
-  CHECK(chain[0].to == "v");
-  CHECK(chain[1].to == "a");
-  CHECK(chain[2].to == "D");
+  CHECK(chain[0].to == Quantity::v);
+  CHECK(chain[1].to == Quantity::a);
+  CHECK(chain[2].to == Quantity::D);
   CHECK(filters_in({}, times).empty());
 }
 
@@ -90,9 +90,9 @@ TEST_CASE("history: a second column v hides the first, and what was made of that
        "smooth x mean width 3", "differentiate x central", "smooth v mean width 3"},
       times);
   REQUIRE(chain.size() == 3);
-  CHECK(chain[0].to == "x");
-  CHECK(chain[1].to == "v");
-  CHECK(chain[2].from == "v");
+  CHECK(chain[0].to == Quantity::x);
+  CHECK(chain[1].to == Quantity::v);
+  CHECK(chain[2].from == Quantity::v);
   CHECK(chain[2].reach == 1);
 }
 
@@ -114,9 +114,9 @@ TEST_CASE(
     "[cli]") {
   std::size_t differences = 0;
   for (const LinearFilter& filter : filters_of_sensors()) {
-    CHECK(filter.to == "v");
+    CHECK(filter.to == Quantity::v);
     const Series line = {0, 2, 4, 6, 8, 10}, out = filter.apply(times, line);
-    if (filter.from == "x") CHECK((++differences && std::abs(out[3] - 2) < 1e-12));
+    if (filter.from == Quantity::x) CHECK((++differences && std::abs(out[3] - 2) < 1e-12));
     else  // at most half a row late
       for (std::size_t i = filter.reach; i + filter.reach < line.size(); ++i)
         CHECK(std::abs(out[i] - line[i]) <= 1);
@@ -248,7 +248,7 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   const FitRun whole = shifts(40);
   const auto cuts = [&](std::size_t first, std::size_t last) {
     FitRun run = cut(whole, first, last);
-    const History history = give_filters(claimed(run), run, {"v", "D"});
+    const History history = give_filters(claimed(run), run, {Quantity::v, Quantity::D});
     CHECK(history.filters.size() == 3);
     return std::pair(history.cut_begin, history.cut_end);
   };
@@ -262,7 +262,7 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   for (double& D : other.D) D *= 1.2;
   for (double& D : scaled.D) D *= 1.0001;
   for (FitRun run : {hole, other, scaled}) {
-    const History history = give_filters(claimed(run), run, {"v", "D"});
+    const History history = give_filters(claimed(run), run, {Quantity::v, Quantity::D});
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
   }
@@ -271,12 +271,12 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   for (const int digits : {3, 4, 6}) {
     FitRun rounded = shifts(50000, 0.085);
     for (double& D : rounded.D) D = std::stod(fmt::format("{:.{}g}", D, digits));
-    CHECK(give_filters(claimed(rounded), rounded, {"v", "D"}).filters.size() == 3);
+    CHECK(give_filters(claimed(rounded), rounded, {Quantity::v, Quantity::D}).filters.size() == 3);
   }
   for (const double unit : {1e-7, 1e-6, 1e-5}) {
     FitRun rounded = whole;
     for (double& D : rounded.D) D = unit * std::round(D / unit);
-    CHECK(give_filters(claimed(rounded), rounded, {"v", "D"}).filters.size() == 3);
+    CHECK(give_filters(claimed(rounded), rounded, {Quantity::v, Quantity::D}).filters.size() == 3);
   }
 }
 
@@ -286,7 +286,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
     const FitRun whole = run;
     History history = claimed(run);
     history.cut_begin = begin == 1, history.cut_end = end == 1;
-    history = give_filters(std::move(history), run, {"v", "D"});
+    history = give_filters(std::move(history), run, {Quantity::v, Quantity::D});
     CHECK(history.filters.size() == 3);
     CHECK(run.t == whole.t);
     // A mean of 5 and a central difference reach 3 rows to either side.
@@ -302,7 +302,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
   FitRun few = shifts(15);
   History history = claimed(few);
   history.cut_begin = history.cut_end = true;
-  history = give_filters(std::move(history), few, {"v", "D"});
+  history = give_filters(std::move(history), few, {Quantity::v, Quantity::D});
   CHECK(history.filters.empty());
   CHECK(history.doubt.ends_with("fewer than 10 rows are far enough from the cut"));
   CHECK(std::isfinite(few.D.front()));
@@ -348,9 +348,8 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
     run.body = {1, 0.04, 0.5};
     for (const Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) try {
         if (run.t.empty() && is_trajectory(route)) continue;
-        const Lines columns = route == Route::position   ? Lines{"x"}
-                              : route == Route::velocity ? Lines{"v"}
-                                                         : Lines{"v", "D"};
+        std::vector<Quantity> columns{fitted_column(route)};
+        if (!is_trajectory(route)) columns.push_back(Quantity::D);
         give_filters(history_of(lines, run.t), run, columns);
         const FitResult r = fit(route, {run}, {});
         CHECK(std::isfinite(r.a));

@@ -19,7 +19,7 @@ TEST_CASE("history: each linear method comes back as the same filter", "[cli]") 
       continue;
     }
     REQUIRE(chain.size() == 1);
-    CHECK(chain[0].to == "v");
+    CHECK(chain[0].to == Quantity::v);
     CHECK(chain[0].reach == reach(options, t));
     CHECK(chain[0].apply(t, y) == through(*make_signal(options), t, y));
   }

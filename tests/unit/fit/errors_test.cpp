@@ -90,7 +90,7 @@ FitRun rounded_speeds(double a, simulated::Noise& noise) {
     run.t.push_back(0.03 * i);
     run.x.push_back(truth.x(run.t.back()) + noise(2e-5));
   }
-  run.filters = {simulated::differentiate("x", "v"), simulated::smooth_v(11)};
+  run.filters = {simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(11)};
   run.v = run.filters[1].apply(run.t, run.filters[0].apply(run.t, run.x));
   for (double& v : run.v) v += noise(1e-3);
   return run;

@@ -109,7 +109,7 @@ TEST_CASE("fit: correlated noise gives positions and their known differences the
       run.x.push_back(truth.x(0.04 * i) + error);
     }
     const auto by_x = fit(Route::position, {run}, {});
-    run.filters = {simulated::differentiate("x", "v")};
+    run.filters = {simulated::differentiate(Quantity::x, Quantity::v)};
     run.v = simulated::slope(run.t, run.x);
     const auto by_v = fit(Route::velocity, {run}, {});
     ratios += by_v.sigma_b / by_x.sigma_b / runs;

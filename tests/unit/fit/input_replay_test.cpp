@@ -17,10 +17,10 @@ namespace {
 
 using Series = std::vector<double>;
 
-const FilterChain chain = {differentiate("x", "v"),
+const FilterChain chain = {differentiate(Quantity::x, Quantity::v),
                            smooth_v(5),
-                           differentiate("v", "a"),
-                           {"a", "D", 0, [](auto, auto y) { return Series(y.begin(), y.end()); }}};
+                           differentiate(Quantity::v, Quantity::a),
+                           {Quantity::a, Quantity::D, 0, [](auto, auto y) { return Series(y.begin(), y.end()); }}};
 
 /// Noisy positions, and the columns that the chain makes of them.
 FitRun filtered(int seed, std::size_t n = 60) {

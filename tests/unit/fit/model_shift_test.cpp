@@ -17,6 +17,7 @@ FitRun danwood() {
   return {.t = {},
           .x = {},
           .v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680},
+          .a = {},
           .D = {2.138, 3.421, 3.597, 4.340, 4.882, 5.660},
           .body = {},
           .filters = {}};
@@ -226,7 +227,7 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
       run.t.push_back(0.04 * i);
       x.push_back(truth.x(0.04 * i));
     }
-    const auto uneven = [](const char* from, const char* to) {
+    const auto uneven = [](Quantity from, Quantity to) {
       return LinearFilter{from, to, 1, [](std::span<const double> t, std::span<const double> y) {
                             std::vector<double> slopes;
                             for (std::size_t i = 0; i < t.size(); ++i) {
@@ -239,7 +240,7 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
                             return slopes;
                           }};
     };
-    run.filters = {uneven("x", "v"), simulated::smooth_v(width), uneven("v", "a"),
+    run.filters = {uneven(Quantity::x, Quantity::v), simulated::smooth_v(width), uneven(Quantity::v, Quantity::a),
                    simulated::shift()};
     run.v = run.filters[1].apply(run.t, run.filters[0].apply(run.t, x));
     run.D = run.filters[2].apply(run.t, run.v);
@@ -260,7 +261,7 @@ TEST_CASE("shift: made by the exact root of Eq. 9, it gives the law of an exact 
     run.t.push_back(0.005 * i);
     run.v.push_back(roll.at(run.t.back()).v);
   }
-  run.filters = {simulated::differentiate("v", "a"), simulated::shift()};
+  run.filters = {simulated::differentiate(Quantity::v, Quantity::a), simulated::shift()};
   for (double a : run.filters[0].apply(run.t, run.v))
     run.D.push_back(shift_from_acceleration(body, Geometry::exact, a));
   const auto r = fit(Route::shift, {run}, {});

@@ -226,7 +226,7 @@ TEST_CASE("velocity: differences of x with their filter known are as good as x",
     by_x.t.push_back(0.04 * i), by_x.x.push_back(truth.x(0.04 * i) + noise(3e-4));
   by_x.body = by_v.body = cylinder;
   by_v.t = by_x.t;
-  by_v.filters = {simulated::differentiate("x", "v")};
+  by_v.filters = {simulated::differentiate(Quantity::x, Quantity::v)};
   by_v.v = by_v.filters[0].apply(by_x.t, by_x.x);
   const auto x = fit(Route::position, {by_x}, {}), v = fit(Route::velocity, {by_v}, {});
   CHECK(v.errors == Errors::filters);
@@ -245,7 +245,7 @@ TEST_CASE(
   std::vector<double> t, x;
   for (int i = 0; i < 90; ++i)
     if (i % 7 != 3) t.push_back(0.03 * i), x.push_back(truth.x(t.back()));
-  const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7)};
+  const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(7)};
   const auto v = chain[1].apply(t, chain[0].apply(t, x));
   FitRun run{};
   run.body = cylinder;

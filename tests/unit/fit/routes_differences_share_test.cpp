@@ -25,7 +25,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   run.v = simulated::slope(run.t, x);
   const double of_v = of_x / std::sqrt(2) / 0.01;
   for (double& v : run.v) v += noise(share * of_v);
-  run.filters = {simulated::differentiate("x", "v")};
+  run.filters = {simulated::differentiate(Quantity::x, Quantity::v)};
   const std::vector<FitRun> runs{run};
   const Fitted fit =
       fit_rolls(Route::velocity, runs, usable(Route::velocity, runs), responses_of(runs), {});

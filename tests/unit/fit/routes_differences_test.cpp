@@ -17,7 +17,7 @@ TEST_CASE(
     "taken for them",
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
-  const LinearFilter difference = simulated::differentiate("x", "v");
+  const LinearFilter difference = simulated::differentiate(Quantity::x, Quantity::v);
   LinearFilter mean = simulated::smooth_v(3);
   FitOptions options;
   options.possible_filters = {difference, mean};
@@ -67,7 +67,7 @@ TEST_CASE(
     "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
   FitOptions options;
-  options.possible_filters = {simulated::differentiate("x", "v")};
+  options.possible_filters = {simulated::differentiate(Quantity::x, Quantity::v)};
   simulated::Noise noise(5);
   FitRun run{};
   run.body = cylinder;

@@ -55,7 +55,8 @@ TEST_CASE("loglog: D <= 0 in more than one row of a hundred biases the line, wha
     const bool biased = std::abs(std::log(r.a / 0.5)) > r.sigma_a / r.a;
     CHECK(logarithms_biased(r) == biased);
   }
-  FitRun exact{{}, {}, {1, 2, 3, 4, 5, 6}, {3, 6, -1, 12, 15, 18}, {}, {}};
+  FitRun exact{};
+  exact.v = {1, 2, 3, 4, 5, 6}, exact.D = {3, 6, -1, 12, 15, 18};
   CHECK(logarithms_biased(fit(Route::loglog, {exact}, {})));
   exact.v[2] = -3;  // it comes back: no reading of D at that speed is negative
   CHECK(!logarithms_biased(fit(Route::loglog, {exact}, {})));

@@ -30,7 +30,7 @@ FitRun short_run(const Body& body, PowerLaw law, std::mt19937_64& random, simula
     run.t.push_back(end * static_cast<double>(i) / static_cast<double>(n - 1));
     run.x.push_back(truth.x(run.t.back()) + noise(size));
   }
-  run.filters = {simulated::differentiate("x", "v"), simulated::smooth_v(5)};
+  run.filters = {simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(5)};
   run.v = run.filters[1].apply(run.t, run.filters[0].apply(run.t, run.x));
   return run;
 }

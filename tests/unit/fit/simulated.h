@@ -55,16 +55,16 @@ inline std::vector<double> slope(std::span<const double> t, std::span<const doub
 }
 
 inline rolling::LinearFilter smooth_v(std::size_t width) {
-  return {"v", "v", width / 2,
+  return {rolling::Quantity::v, rolling::Quantity::v, width / 2,
           [width](std::span<const double>, std::span<const double> y) { return mean(y, width); }};
 }
-inline rolling::LinearFilter differentiate(const char* from, const char* to) {
+inline rolling::LinearFilter differentiate(rolling::Quantity from, rolling::Quantity to) {
   return {from, to, 1,
           [](std::span<const double> t, std::span<const double> y) { return slope(t, y); }};
 }
 /// The last filter of a chain to D, which stands for the acceleration.
 inline rolling::LinearFilter shift() {
-  return {"a", "D", 0, [](std::span<const double>, std::span<const double> y) {
+  return {rolling::Quantity::a, rolling::Quantity::D, 0, [](std::span<const double>, std::span<const double> y) {
             return std::vector<double>(y.begin(), y.end());
           }};
 }
@@ -76,11 +76,11 @@ inline rolling::FitRun shifts(const rolling::Body& body, std::vector<double> t,
   rolling::FitRun run{};
   run.shift_of = rolling::ShiftOf{body};
   if (source[0] == 'x') {
-    run.filters.push_back(differentiate("x", "v"));
+    run.filters.push_back(differentiate(rolling::Quantity::x, rolling::Quantity::v));
     raw = slope(t, raw);
   }
   run.filters.push_back(smooth_v(width));
-  run.filters.push_back(differentiate("v", "a"));
+  run.filters.push_back(differentiate(rolling::Quantity::v, rolling::Quantity::a));
   run.filters.push_back(shift());
   run.v = mean(raw, width);
   run.D = slope(t, run.v);

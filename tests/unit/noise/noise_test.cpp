@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t n = 40;
 const std::vector<double> t = simulated::times(n);
 const BandMatrix E =
-    probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(5), t);
+    probe(simulated::differentiate(Quantity::v, Quantity::a), t) * probe(simulated::smooth_v(5), t);
 const Filters filters = std::make_shared<const BandMatrix>(E);
 
 }  // namespace
@@ -84,7 +84,7 @@ TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", 
   const auto innovations = [](std::size_t rows, std::size_t width) {
     const std::vector<double> at = simulated::times(rows);
     const auto H = std::make_shared<const BandMatrix>(
-        probe(simulated::smooth_v(width), at) * probe(simulated::differentiate("x", "v"), at));
+        probe(simulated::smooth_v(width), at) * probe(simulated::differentiate(Quantity::x, Quantity::v), at));
     return Noise({H, H}).informative();
   };
   CHECK(innovations(7, 3) == 2 * 5);

@@ -46,7 +46,7 @@ TEST_CASE(
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
   const BandMatrix E =
-      probe(simulated::differentiate("v", "a"), t) * probe(simulated::smooth_v(7), t);
+      probe(simulated::differentiate(Quantity::v, Quantity::a), t) * probe(simulated::smooth_v(7), t);
   const auto dense_E = dense(E);
   const Covariance EE(E);
   const double width = static_cast<double>(EE.band),
@@ -120,7 +120,7 @@ TEST_CASE("whitener: rounding leaves every covariance of filters positive defini
   for (const std::size_t width : {1U, 5U, 11U, 31U, 201U})
     for (const std::size_t n : {60U, 1000U, 5000U}) {
       const auto t = simulated::times(n);
-      const BandMatrix difference = probe(simulated::differentiate("x", "v"), t),
+      const BandMatrix difference = probe(simulated::differentiate(Quantity::x, Quantity::v), t),
                        mean = probe(simulated::smooth_v(width), t);
       const BandMatrix E = mean * difference;
       for (const BandMatrix& filters : {E, mean * E, difference * E}) {

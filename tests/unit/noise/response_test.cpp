@@ -15,16 +15,16 @@ TEST_CASE(
     "[fit]") {
   for (std::size_t n : {3u, 4u, 9u, 40u}) {
     const auto t = simulated::times(n);
-    const FilterChain chain{simulated::differentiate("x", "v"), simulated::smooth_v(7),
-                            simulated::differentiate("v", "a")};
+    const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(7),
+                            simulated::differentiate(Quantity::v, Quantity::a)};
     const auto response = response_of(chain, t);
-    CHECK(response.source == "x");
+    CHECK(response.source == Quantity::x);
     std::vector<double> x;
     for (std::size_t i = 0; i < n; ++i) x.push_back(std::sin(3.7 * static_cast<double>(i * i)));
     const auto v = chain[1].apply(t, chain[0].apply(t, x)), a = chain[2].apply(t, v);
     for (std::size_t i = 0; i < n; ++i) {
-      CHECK(std::abs(response.of.at("v")->times(x)[i] - v[i]) < 1e-12);
-      CHECK(std::abs(response.of.at("a")->times(x)[i] - a[i]) < 1e-11);
+      CHECK(std::abs(response.of[Quantity::v]->times(x)[i] - v[i]) < 1e-12);
+      CHECK(std::abs(response.of[Quantity::a]->times(x)[i] - a[i]) < 1e-11);
     }
   }
 }
@@ -38,7 +38,7 @@ TEST_CASE("response: every row is found whole, as wide as it may be", "[fit]") {
         for (std::size_t j = i - std::min(i, side); j < std::min(n, i + side + 1); ++j)
           matrix[i * n + j] = static_cast<double>(1 + i * n + j);
       }
-      const LinearFilter filter{"v", "v", reach, [&](auto, auto y) {
+      const LinearFilter filter{Quantity::v, Quantity::v, reach, [&](auto, auto y) {
                                   std::vector<double> product;
                                   for (std::size_t i = 0; i < n; ++i)
                                     product.push_back(dot(&matrix[i * n], y.data(), n));
@@ -52,7 +52,7 @@ TEST_CASE("response: every row is found whole, as wide as it may be", "[fit]") {
 }
 
 TEST_CASE("response: noise from two raw columns is refused", "[fit]") {
-  CHECK_THROWS_AS(response_of({simulated::smooth_v(3), simulated::differentiate("x", "w")},
+  CHECK_THROWS_AS(response_of({simulated::smooth_v(3), simulated::differentiate(Quantity::x, Quantity::a)},
                               simulated::times(9)),
                   Error);
 }
@@ -69,7 +69,7 @@ TEST_CASE("response: a filter that does the same everywhere is probed in a short
 TEST_CASE("response: of equal steps few rows are probed; a lost row changes its neighbours",
           "[fit]") {
   std::size_t probed = 0;
-  const LinearFilter slopes{"x", "v", 1, [&](std::span<const double> t, std::span<const double> x) {
+  const LinearFilter slopes{Quantity::x, Quantity::v, 1, [&](std::span<const double> t, std::span<const double> x) {
                               probed = t.size();
                               std::vector<double> v(x.size());
                               for (std::size_t i = 0; i < x.size(); ++i) {
@@ -108,7 +108,7 @@ TEST_CASE("response: filters one after another are the product of their matrices
   constexpr std::size_t n = 600;
   const auto t = simulated::times(n);
   const BandMatrix mean = probe(simulated::smooth_v(9), t),
-                   slope = probe(simulated::differentiate("v", "a"), t);
+                   slope = probe(simulated::differentiate(Quantity::v, Quantity::a), t);
   const std::vector<std::size_t> rows{0, 1, 5, 300, 301, 598, 599};
   const BandMatrix H = (slope * mean * BandMatrix::identity(n)).of_rows(rows);
   std::vector<double> x, y;
@@ -127,7 +127,7 @@ TEST_CASE("response: filters one after another are the product of their matrices
 }
 
 TEST_CASE("response: a filter that does not give a value for each row is refused", "[fit]") {
-  const LinearFilter short_one{"v", "v", 1, [](std::span<const double>, std::span<const double> y) {
+  const LinearFilter short_one{Quantity::v, Quantity::v, 1, [](std::span<const double>, std::span<const double> y) {
                                  return std::vector<double>(y.begin() + 1, y.end());
                                }};
   CHECK_THROWS_AS(probe(short_one, simulated::times(9)), Error);
