@@ -51,11 +51,11 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
 /// names it and the others are fitted all the same.
-std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<FitRun> runs,
+std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<Run> runs,
                                const FitOptions& options, bool each) {
   std::vector<FitOfRuns> fits;
   if (each)
-    for (FitRun& run : runs) fits.push_back({route, {std::move(run)}});
+    for (Run& run : runs) fits.push_back({route, {std::move(run)}});
   else fits.push_back({route, std::move(runs)});
   for (FitOfRuns& one : fits) try {
       one.result = fit(route, one.runs, options);

@@ -14,7 +14,7 @@ namespace rolling {
 namespace {
 
 /// Gives a run the filters that its `##` lines name, as far as they are trusted.
-void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
+void set_filters(Tool& tool, const Reader& in, Route route, Run& run) {
   History history = history_of(in.history(), run.t);
   if (in.renames() && !history.filters.empty())
     history = {.doubt = "--use takes other columns than its `##` lines speak of"};
@@ -32,10 +32,10 @@ void set_filters(Tool& tool, const Reader& in, Route route, FitRun& run) {
 
 /// Warns of a run without known filters beside one with filters: a run break takes the `##` lines
 /// away.
-void warn_of_lost_history(Tool& tool, const std::vector<FitRun>& runs) {
+void warn_of_lost_history(Tool& tool, const std::vector<Run>& runs) {
   const auto first =
-      std::ranges::find_if(runs, [](const FitRun& run) { return change_numbers(run.filters); });
-  for (const FitRun& run : runs)
+      std::ranges::find_if(runs, [](const Run& run) { return change_numbers(run.filters); });
+  for (const Run& run : runs)
     if (first != runs.end() && run.filters.empty())
       tool.warn(run.name, "its filters are not known, as those of run " + first->name +
                               " are: the fit goes on as if no filter were known");
@@ -58,12 +58,12 @@ std::vector<Quantity> columns_of(Route route) {
   return {Quantity::t, fitted_column(route)};
 }
 
-std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
+std::vector<Run> read_runs(Tool& tool, Reader& in, Route route) {
   PerQuantity<std::optional<std::size_t>> slots;
   for (const Quantity q : columns_of(route)) slots[q] = in.need(std::string(name_of(q)));
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   while (in.next_run()) {
-    FitRun& run = runs.emplace_back();
+    Run& run = runs.emplace_back();
     run.name = in.run_name();
     if (!in.history().empty())  // the `##` lines are compared with the other columns
       for (const Quantity q : {Quantity::t, Quantity::x, Quantity::v, Quantity::D})
@@ -78,9 +78,9 @@ std::vector<FitRun> read_runs(Tool& tool, Reader& in, Route route) {
   return runs;
 }
 
-bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
+bool take_pulses(Tool& tool, std::vector<Run>& runs) {
   std::vector<double> ways;
-  for (const FitRun& run : runs) {
+  for (const Run& run : runs) {
     const auto way = run.filters.empty() ? way_between_pulses(run.t, run.v) : std::nullopt;
     if (!way) return false;
     ways.push_back(*way);
@@ -97,7 +97,7 @@ bool take_pulses(Tool& tool, std::vector<FitRun>& runs) {
   return true;
 }
 
-void Bodies::give_to(std::vector<FitRun>& runs) const {
+void Bodies::give_to(std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size()),
                    R = of_run(radii, "radius", i, runs.size());
@@ -107,9 +107,9 @@ void Bodies::give_to(std::vector<FitRun>& runs) const {
   }
 }
 
-void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
+void warn_of_copies(Tool& tool, Route route, const std::vector<Run>& runs) {
   std::set<std::vector<std::string_view>> different;  // the readings, as their bytes
-  for (const FitRun& run : runs) {
+  for (const Run& run : runs) {
     std::vector<std::string_view> readings;
     for (const Quantity q : columns_of(route)) {
       const std::vector<double>& x = run[q];
@@ -122,11 +122,11 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<FitRun>& runs) {
   }
 }
 
-void warn_of_unused_body(Tool& tool, const std::vector<FitRun>& runs, Geometry geometry) {
+void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs, Geometry geometry) {
   std::string unused;
   for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
     if (tool.on_command_line(option)) add_item(unused, std::string("--") + option);
-  for (const FitRun& run : runs) {
+  for (const Run& run : runs) {
     std::string others;
     if (run.shift_of) {
       Body given = run.body;

@@ -20,12 +20,12 @@ std::vector<Quantity> columns_of(Route);
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
 /// of `##` lines that are not trusted or that one run lacks, and of rows that are left out because
 /// their windows are not known.
-std::vector<FitRun> read_runs(Tool&, Reader&, Route);
+std::vector<Run> read_runs(Tool&, Reader&, Route);
 
 /// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,
 /// gives the runs that way as positions, says so, and returns true: the positions are what was
 /// measured.
-bool take_pulses(Tool&, std::vector<FitRun>&);
+bool take_pulses(Tool&, std::vector<Run>&);
 
 /// The bodies as the command line gives them: one shape factor, or one for each run, or none; and
 /// so one radius.
@@ -33,17 +33,17 @@ struct Bodies {
   Body body = {};  ///< but for K and R
   std::vector<Estimate> shape_factors = {}, radii = {};
 
-  void give_to(std::vector<FitRun>&) const;
+  void give_to(std::vector<Run>&) const;
 };
 
 /// Warns of a run that was given twice: in a joint fit it makes the errors too small. All columns
 /// that are fitted are those of the other run: gates and speed bands fix x or v, and measure t.
 /// Fewer than ten readings may be equal by chance.
-void warn_of_copies(Tool&, Route, const std::vector<FitRun>&);
+void warn_of_copies(Tool&, Route, const std::vector<Run>&);
 
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
 /// others, or it is not known with which.
-void warn_of_unused_body(Tool&, const std::vector<FitRun>&, Geometry);
+void warn_of_unused_body(Tool&, const std::vector<Run>&, Geometry);
 
 /// The route fits: reads rows of fitpower and prints their joint law (statistics/run_laws.h). What
 /// the uncertainties of K, R and g have brought to each row is common to the rows that give the
@@ -53,14 +53,14 @@ void fit_rows(Tool&, const Bodies&);
 /// Runs that are fitted together, and their fit.
 struct FitOfRuns {
   Route route;
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   std::optional<FitResult> result = {};    ///< none where they cannot be fitted
   std::optional<LawComparison> laws = {};  ///< where laws are compared
 };
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) by -4.1 +- 0.4 %, its b by +0.012 +-
 /// 0.004; ...".
-std::string disagreement(const Agreement&, const std::vector<FitRun>&);
+std::string disagreement(const Agreement&, const std::vector<Run>&);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
 /// or repeat, a b far below what mats have. Where there is none of it, and no law is better, also

@@ -143,13 +143,13 @@ class Remarks {
                          "down, but a hand, a wall, an incline or a magnet at the end of the roll "
                          "does; cut it off",
                          r_.b, r_.sigma_b));
-    spoilt_ |= std::ranges::any_of(fit_.runs, [&](const FitRun& run) { return rounding(run); });
+    spoilt_ |= std::ranges::any_of(fit_.runs, [&](const Run& run) { return rounding(run); });
   }
 
   /// Warns of readings that repeat since a logger held them or rounded them to steps that the body
   /// hardly makes, or that have hardly any noise but their rounding: their errors are correlated
   /// then, which residuals of few rows do not show. True if it does.
-  bool rounding(const FitRun& run) {
+  bool rounding(const Run& run) {
     const bool positions = fit_.route == Route::position;
     const Quantity fitted = fitted_column(fit_.route);
     const std::vector<double>& y = run[fitted];
@@ -236,7 +236,7 @@ class Remarks {
 
 }  // namespace
 
-std::string disagreement(const Agreement& found, const std::vector<FitRun>& runs) {
+std::string disagreement(const Agreement& found, const std::vector<Run>& runs) {
   std::string line = fmt::format(
       "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
       "{} {}",

@@ -14,7 +14,7 @@ namespace {
 
 struct FitRows {
   std::vector<OwnLaw> laws;
-  std::vector<FitRun> runs;  ///< the names and bodies of the runs, without readings
+  std::vector<Run> runs;  ///< the names and bodies of the runs, without readings
   bool a_fixed = false, b_fixed = false;
 
   /// Throws Error for a row that is none of a fit with errors.

@@ -216,7 +216,7 @@ bool shifts_of_speeds(const std::vector<std::string>& lines) {
 
 // How many rows were removed is not known, nor at which times, and thus not the windows at the
 // former end. Further inside, they are those of the times of the run.
-History give_filters(History history, FitRun& run, const std::vector<Quantity>& columns) {
+History give_filters(History history, Run& run, const std::vector<Quantity>& columns) {
   run.shift_of = history.shift_of;
   const Mismatch found = mismatch(history.filters, run);
   history.cut_begin |= found.begin;

@@ -52,7 +52,7 @@ bool change_numbers(const FilterChain&);
 /// windows may have reached to them become NaN in x, v and D. If they differ elsewhere, or if fewer
 /// than 10 readings of the columns that are fitted remain, the lines are not trusted. Returns the
 /// history as far as it is.
-History give_filters(History, FitRun&, const std::vector<Quantity>& columns);
+History give_filters(History, Run&, const std::vector<Quantity>& columns);
 
 /// The filters that the software of sensors may apply to speeds: the differences of positions to
 /// the row before and to the row after (of spreadsheets, gates and encoders; where times are even,

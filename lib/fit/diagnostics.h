@@ -63,6 +63,6 @@ struct Beginning {
 /// Runs of fewer than 20 rows more than parameters are left out. The result is empty for a
 /// robust fit and one that is not a roll, and for filtered columns: filters spread a disturbance
 /// over all residuals, which then are not white. Throws Error if the joint fit is not possible.
-std::optional<Beginning> disturbed_beginning(Route, const std::vector<FitRun>&, const FitOptions&);
+std::optional<Beginning> disturbed_beginning(Route, const std::vector<Run>&, const FitOptions&);
 
 }  // namespace rolling

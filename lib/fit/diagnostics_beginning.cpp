@@ -64,10 +64,10 @@ struct BeginningSearch {
 
 }  // namespace
 
-std::optional<Beginning> disturbed_beginning(Route route, const std::vector<FitRun>& runs,
+std::optional<Beginning> disturbed_beginning(Route route, const std::vector<Run>& runs,
                                              const FitOptions& options) {
   if (options.robust) return {};
-  for (const FitRun& run : runs)
+  for (const Run& run : runs)
     if (!run.filters.empty()) return {};
   silence_gsl();
   const Fitted joint = fit_route(route, runs, options);

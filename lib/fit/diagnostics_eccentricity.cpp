@@ -54,7 +54,7 @@ std::vector<double> response(const ObservedRun& run, const Path& path, double r)
     const auto [x, v] = path[i];
     const double time = r / std::max(std::abs(v), slow * path[0][1]), by_v = run.way * rate * time,
                  cos = by_v * std::cos(x / r), sin = by_v * std::sin(x / r);
-    const bool position = run.column == RawColumn::x;
+    const bool position = run.column == Quantity::x;
     columns[i] = position ? time * cos : -sin;
     columns[n + i] = position ? time * sin : cos;
   }

@@ -58,11 +58,11 @@ Matrix correlations_of(const Matrix& covariance, std::size_t n);
 /// ln D, by the same weights, and takes a degree of freedom. Two runs then have none left, and runs
 /// of one direction do not tell a slope by their scatter: a, b and the slope stay those of the
 /// joint fit, and all errors are multiplied by the root of chi^2/dof.
-std::optional<Agreement> agreement_of(Route, const std::vector<FitRun>&, const FitOptions&,
+std::optional<Agreement> agreement_of(Route, const std::vector<Run>&, const FitOptions&,
                                       Uncertainty& errors, Fitted& joint);
 
 /// The joint fit of runs that are known to disagree, with the values that agreement_of() gives it.
-Fitted fit_of_disagreeing(Route, const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_of_disagreeing(Route, const std::vector<Run>&, const FitOptions&);
 
 /// The contribution of each given number with an uncertainty. Runs with the same value and
 /// uncertainty have the same body; they change together. The derivative is a central difference of
@@ -72,7 +72,7 @@ Fitted fit_of_disagreeing(Route, const std::vector<FitRun>&, const FitOptions&);
 /// their means (see agreement_of()) for the changed number too. If a alone depends on the number,
 /// in proportion to (K + 1) R/g, nothing is fitted again. Throws Error if the fit itself is not
 /// possible.
-std::vector<ErrorShare> shares_of_given(Route, const std::vector<FitRun>&, const FitOptions&,
+std::vector<ErrorShare> shares_of_given(Route, const std::vector<Run>&, const FitOptions&,
                                         const Fitted&, bool agree);
 
 }  // namespace rolling

@@ -144,7 +144,7 @@ std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& opt
 }
 
 /// Each run fitted by itself; nothing for one that does not determine a law.
-std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRun>& runs,
+std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<Run>& runs,
                                             const FitOptions& options, const Fitted& joint) {
   std::vector<std::optional<Fitted>> own;
   for (std::size_t r = 0; r < runs.size(); ++r) try {
@@ -158,7 +158,7 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<FitRu
 
 }  // namespace
 
-std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& runs,
+std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
                                       const FitOptions& options, Uncertainty& errors,
                                       Fitted& joint) {
   if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
@@ -187,7 +187,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<FitRun>& ru
   return found;
 }
 
-Fitted fit_of_disagreeing(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+Fitted fit_of_disagreeing(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   Fitted joint = fit_route(route, runs, options);
   take_means(own_laws(own_fits(route, runs, options, joint), joint.fastest()), options, joint);
   return joint;

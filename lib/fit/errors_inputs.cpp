@@ -18,7 +18,7 @@ Estimate given(const ShiftOf& by, const UncertainNumber& number) {
   return {by.body.*number.value, by.body.*number.sigma};
 }
 
-void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
+void move(Route route, Run& run, const UncertainNumber& number, double by) {
   if (is_trajectory(route)) {
     run.body.*number.value += by;
     return;
@@ -34,10 +34,10 @@ void move(Route route, FitRun& run, const UncertainNumber& number, double by) {
 /// True if all runs have this value, and D alone depends on it, in proportion to (K + 1) R/g. With
 /// A = 1 on a level mat v and x depend on a g/((K + 1) R) (Eq. 12), and D is (K + 1) R/g times the
 /// deceleration (Eq. 11).
-bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& options,
+bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& options,
               const UncertainNumber& number, const Estimate& value) {
   if (options.a || options.fit_slope || number.value == &Body::slope) return false;
-  return std::ranges::all_of(runs, [&](const FitRun& run) {
+  return std::ranges::all_of(runs, [&](const Run& run) {
     const ShiftOf by = contact_of(route, run, options);
     return given(by, number) == value && by.geometry == Geometry::approximate && by.body.slope == 0;
   });
@@ -45,12 +45,12 @@ bool scales_a(Route route, const std::vector<FitRun>& runs, const FitOptions& op
 
 }  // namespace
 
-std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& runs,
+std::vector<ErrorShare> shares_of_given(Route route, const std::vector<Run>& runs,
                                         const FitOptions& options, const Fitted& fit, bool agree) {
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
-    for (const FitRun& run : runs) {
+    for (const Run& run : runs) {
       const Estimate value = given(contact_of(route, run, options), number);
       if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
@@ -68,8 +68,8 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<FitRun>& 
               numbers[j].value *= (body.K + 1) * body.R / body.g / unit;
           return numbers;
         }
-        std::vector<FitRun> changed = runs;
-        for (FitRun& run : changed)
+        std::vector<Run> changed = runs;
+        for (Run& run : changed)
           if (given(contact_of(route, run, options), number) == value) move(route, run, number, by);
         return (agree ? fit_route : fit_of_disagreeing)(route, changed, options).numbers();
       };

@@ -147,7 +147,7 @@ void require_roll(const Fitted& found) {
   }
 }
 
-FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
@@ -175,7 +175,7 @@ FitResult fit_from_start(Route route, const std::vector<FitRun>& runs, const Fit
 }
 
 /// The readings that are off the robust roll; none where there is no robust roll either.
-OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOptions options) try {
+OffReadings off_robust_roll(Route route, const std::vector<Run>& runs, FitOptions options) try {
   options.robust = true;
   return off_readings_of_robust(fit_route(route, runs, options));
 } catch (const Error&) {
@@ -184,7 +184,7 @@ OffReadings off_robust_roll(Route route, const std::vector<FitRun>& runs, FitOpt
 
 }  // namespace
 
-FitResult fit(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+FitResult fit(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   constexpr std::size_t single = 3;
   try {
     return fit_from_start(route, runs, options);

@@ -106,7 +106,7 @@ inline bool logarithms_biased(const FitResult& r) {
 /// one-line message if the data do not determine the result: too few rows, all v equal, no
 /// positive D (loglog), no convergence, a standard error of b above 3, a slope that cannot be
 /// separated from a.
-FitResult fit(Route, const std::vector<FitRun>&, const FitOptions&);
+FitResult fit(Route, const std::vector<Run>&, const FitOptions&);
 
 /// The fit of one law to the rows of a route.
 struct LawFit {
@@ -137,6 +137,6 @@ struct LawComparison {
 /// Suppl. 8, 184). For loglog the laws are compared on D itself, as for shift. Of more than 4096
 /// rows a run block means are compared (of_means()). Throws Error for a robust fit, and if the
 /// fit of a v^b itself is not possible.
-LawComparison compare_laws(Route, const std::vector<FitRun>&, FitOptions);
+LawComparison compare_laws(Route, const std::vector<Run>&, FitOptions);
 
 }  // namespace rolling

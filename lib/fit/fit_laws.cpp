@@ -58,7 +58,7 @@ Fitted fit_of_law(const Fitted& power, const LawForm& law) {
   return found;
 }
 
-LawComparison compare_laws(Route route, const std::vector<FitRun>& runs, FitOptions options) {
+LawComparison compare_laws(Route route, const std::vector<Run>& runs, FitOptions options) {
   if (options.robust) fail("laws are compared by squares only");
   // The mean of ln D is not the logarithm of the mean of D if D is noisy; other laws would fit the
   // difference.

@@ -77,7 +77,7 @@ double Fitted::fastest() const {
 namespace {
 
 /// Fits a v^b.
-Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   if (options.a && !(*options.a > 0))
     fail("a = {} cannot be fixed: it must be positive", *options.a);
   std::vector<Response> responses = responses_of(runs);
@@ -101,7 +101,7 @@ Fitted fit_power(Route route, const std::vector<FitRun>& runs, const FitOptions&
 
 }  // namespace
 
-Fitted fit_route(Route route, const std::vector<FitRun>& runs, const FitOptions& options) {
+Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   if (options.fits_power()) return fit_power(route, runs, options);
   if (route == Route::loglog)
     fail("a straight line of logarithms is a law a v^b: fit D = {} with --route shift",

@@ -74,7 +74,7 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent);
 
 /// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
 /// standard errors.
-Fitted fit_route(Route, const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
 
 /// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
 /// Throws Error if the rows do not determine it.

@@ -29,11 +29,11 @@ inline double acceleration_of(const ShiftOf& by, double D) {
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The
 /// routes loglog and shift read v and D (and t, where the filters are known); velocity reads t and
 /// v; position reads t and x.
-struct FitRun {
+struct Run {
   std::vector<double> t, x, v, a, D;
   std::vector<double>& operator[](Quantity q) { return this->*columns[q]; }
   const std::vector<double>& operator[](Quantity q) const { return this->*columns[q]; }
-  static const PerQuantity<std::vector<double> FitRun::*> columns;
+  static const PerQuantity<std::vector<double> Run::*> columns;
 
   Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only); runs
                         ///< that give the same number with the same uncertainty share its error
@@ -44,8 +44,8 @@ struct FitRun {
   std::string name = {};  ///< for messages
 };
 
-inline constexpr PerQuantity<std::vector<double> FitRun::*> FitRun::columns{
-    {&FitRun::t, &FitRun::x, &FitRun::v, &FitRun::a, &FitRun::D}};
+inline constexpr PerQuantity<std::vector<double> Run::*> Run::columns{
+    {&Run::t, &Run::x, &Run::v, &Run::a, &Run::D}};
 
 enum class Route { loglog, shift, velocity, position };
 /// True if the route fits v or x as a function of t; the others fit D(v).
@@ -72,7 +72,7 @@ struct FitOptions {
 };
 
 /// The body of a run on this route, with the uncertainties of its numbers, and the geometry.
-inline ShiftOf contact_of(Route route, const FitRun& run, const FitOptions& options) {
+inline ShiftOf contact_of(Route route, const Run& run, const FitOptions& options) {
   if (is_trajectory(route)) return {run.body, options.geometry};
   return run.shift_of.value_or(ShiftOf{});
 }
@@ -87,6 +87,6 @@ struct Mismatch {
 /// for D the acceleration from which shift_of computed it) and compares each column that they make.
 /// What differs from it by the rounding of the numbers, or by much less than its noise, is the
 /// same. Columns that are missing, and the windows of missing readings, are not compared.
-Mismatch mismatch(const FilterChain&, const FitRun&);
+Mismatch mismatch(const FilterChain&, const Run&);
 
 }  // namespace rolling

@@ -19,7 +19,7 @@ struct Recomputed {
 };
 
 /// The column of a run that its filters may have made; empty if it is not known.
-std::vector<double> column_of_run(const FitRun& run, Quantity q) {
+std::vector<double> column_of_run(const Run& run, Quantity q) {
   if (q == Quantity::t || (q == Quantity::D && !run.shift_of)) return {};
   return run[q];
 }
@@ -101,7 +101,7 @@ void compare(std::span<const double> t, const Recomputed& computed,
 
 }  // namespace
 
-Mismatch mismatch(const FilterChain& filters, const FitRun& run) {
+Mismatch mismatch(const FilterChain& filters, const Run& run) {
   Mismatch result;
   PerQuantity<Recomputed> columns;
   for (std::size_t k = 0; k < filters.size(); ++k) {

@@ -61,23 +61,23 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
   return sum(rows.end() - half, rows.end()) < sum(rows.begin(), rows.begin() + half) ? -1 : 1;
 }
 
-std::vector<Response> responses_of(const std::vector<FitRun>& all) {
+std::vector<Response> responses_of(const std::vector<Run>& all) {
   std::vector<Response> responses;
-  for (const FitRun& run : all) {
+  for (const Run& run : all) {
     if (run.filters.empty()) return {};
     responses.push_back(response_of(run.filters, run.t));
   }
   return responses;
 }
 
-std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
+std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
                                  const std::vector<Rows>& rows,
                                  const std::vector<Response>& responses,
                                  const FitOptions& options) {
   const bool known = !responses.empty();
   std::vector<ObservedRun> runs;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const FitRun& run = all[r];
+    const Run& run = all[r];
     ObservedRun seen;
     if (all.size() > 1) seen.place = fmt::format("run {}: ", run.name);
     if (rows[r].empty()) fail("{}no row can be fitted", seen.place);
@@ -91,8 +91,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
         seen.accelerations.push_back(acceleration_of(*run.shift_of, run.D[i]));
       seen.H_of_accelerations = filters_of_rows(responses[r], Quantity::D, rows[r]);
     }
-    const bool position = known ? responses[r].source == Quantity::x : route == Route::position;
-    seen.column = position ? RawColumn::x : RawColumn::v;
+    seen.column = known ? responses[r].source : fitted_column(route);
     if (known) {
       seen.t = run.t;
       seen.H = filters_of_rows(responses[r], fitted_column(route), rows[r]);
@@ -109,7 +108,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<FitRun>& all,
 
 std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& parameters) {
   if (parameters.has_x0()) return 0;
-  return static_cast<std::size_t>(std::ranges::count(runs, RawColumn::x, &ObservedRun::column));
+  return static_cast<std::size_t>(std::ranges::count(runs, Quantity::x, &ObservedRun::column));
 }
 
 std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, AddedNoise added) {
@@ -144,7 +143,7 @@ template <std::size_t columns>
 RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x0) {
   const double last = run.t.back();
   const std::array corners{roll.stop_until(last), roll.radius_time(last)};
-  const auto direct = [&q, x0, way = run.way, position = run.column == RawColumn::x,
+  const auto direct = [&q, x0, way = run.way, position = run.column == Quantity::x,
                        roll = std::move(roll)](double t) mutable {
     Roll::Point p = roll.at(t);
     Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
@@ -176,7 +175,7 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
   const Law law = parameters_.law(theta);
   if (!is_roll())
-    return [&q = parameters_, law, logarithm = run.column == RawColumn::ln_D](
+    return [&q = parameters_, law, logarithm = run.logarithm](
                double v, double* slopes, std::size_t stride) {
       std::array<double, LawForm::most> by_c{};
       const double D = law.at(v, by_c.data()).D;

@@ -163,9 +163,6 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
 /// The indices of the rows of one run that a route fits.
 using Rows = std::vector<std::size_t>;
 
-/// What a column holds: positions and speeds of a roll, or shifts and their logarithms.
-enum class RawColumn { x, v, D, ln_D };
-
 /// The data of one run in the form that the model needs.
 struct ObservedRun {
   std::string place;  ///< begins messages about the run; empty if there is no other
@@ -173,23 +170,24 @@ struct ObservedRun {
   Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
   double origin = 0;  ///< the time of the first row [s]: v0 and x0 hold there, t counts from it
-  RawColumn column = RawColumn::v;  ///< the raw one
+  Quantity column = Quantity::v;  ///< the raw one: x or v of a roll; D of a law, or its logarithm
+  bool logarithm = false;
   /// The times of the raw column, at which the model is evaluated [s]; of shifts, their speeds
   /// [m/s]
-  std::vector<double> t;
-  Filters H;              ///< y = H raw; without H, y is the raw column itself
-  std::vector<double> y;  ///< the fitted rows
+  std::vector<double> t = {};
+  Filters H = {};              ///< y = H raw; without H, y is the raw column itself
+  std::vector<double> y = {};  ///< the fitted rows
   /// For shift: the accelerations of the shifts of these rows, and their filters.
   std::vector<double> accelerations = {};
   Filters H_of_accelerations = {};
 };
 
 /// The response of each run, if the filters of all runs are known; otherwise empty.
-std::vector<Response> responses_of(const std::vector<FitRun>&);
+std::vector<Response> responses_of(const std::vector<Run>&);
 
 /// The runs in the form that the model needs, with the chosen rows alone. Throws Error for a run
 /// without a row.
-std::vector<ObservedRun> observe(Route, const std::vector<FitRun>&, const std::vector<Rows>&,
+std::vector<ObservedRun> observe(Route, const std::vector<Run>&, const std::vector<Rows>&,
                                  const std::vector<Response>&, const FitOptions&);
 
 /// The number of runs of positions whose mean the filters remove; each such run loses one degree of
@@ -225,7 +223,7 @@ class Model {
   /// The number of fitted rows of each run.
   std::vector<std::size_t> rows() const;
   const Parameters& parameters() const { return parameters_; }
-  bool is_roll() const { return runs().front().column <= RawColumn::v; }
+  bool is_roll() const { return runs().front().column != Quantity::D; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to this object.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;

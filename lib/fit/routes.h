@@ -25,10 +25,10 @@ FirstGuess first_guess(const std::vector<ObservedRun>&, const FitOptions&);
 /// The rows of each run in which no reading is missing: those with finite values. For a roll under
 /// shifts a row with v <= 0 counts too: to select by noisy speeds would be to select by their
 /// noise.
-std::vector<Rows> usable(Route, const std::vector<FitRun>&);
+std::vector<Rows> usable(Route, const std::vector<Run>&);
 
 /// Fits a roll: position, velocity, and shift with known filters (`responses`).
-Fitted fit_rolls(Route, const std::vector<FitRun>&, std::vector<Rows>, std::vector<Response>,
+Fitted fit_rolls(Route, const std::vector<Run>&, std::vector<Rows>, std::vector<Response>,
                  const FitOptions&, AddedNoise = {});
 
 /// The fit of these runs with the weights of this noise.
@@ -52,11 +52,11 @@ double sum_of_squares(const Fitted&);
 /// options.min_speed, and with D > 0 if `logarithms`; what is no more than the rounding of a
 /// difference (base/grid.h) counts as 0. From the time `stop` on no row is used. A body that rolls
 /// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
-Rows shift_rows(const FitRun&, const FitOptions&, bool logarithms, double stop = INFINITY);
+Rows shift_rows(const Run&, const FitOptions&, bool logarithms, double stop = INFINITY);
 
 /// The runs of the columns D [m] or ln D with these rows, without the runs that have none. Throws
 /// Error if the rows do not determine the parameters.
-std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>&, const std::vector<Rows>&,
+std::vector<ObservedRun> observed_shifts(const std::vector<Run>&, const std::vector<Rows>&,
                                          const FitOptions&, bool logarithms);
 
 /// The parameters of a law of these runs: the unit of speed is the geometric mean of theirs, where
@@ -66,20 +66,20 @@ Parameters parameters_of_shifts(const std::vector<ObservedRun>&, const FitOption
 /// Unweighted least squares on D (or the robust loss) for rows whose filters are not known. D
 /// and a are in metres, v in m/s; runs that roll towards falling x are reflected. Throws Error if
 /// the rows do not determine the parameters.
-Fitted fit_shift(const std::vector<FitRun>&, const FitOptions&);
+Fitted fit_shift(const std::vector<Run>&, const FitOptions&);
 
 /// The log-log regression line of ln D on ln v through all rows with v > 0 and D > 0, with equal
 /// weights, as one would draw it through a plot. If the filters are known (`responses`), the errors
 /// are those of the noise of the raw column, propagated through the filters and the logarithms, and
 /// the expected bias of the line is reported. Throws Error if the rows do not determine the
 /// parameters.
-Fitted fit_log_log(const std::vector<FitRun>&, const FitOptions&, std::vector<Response> responses);
+Fitted fit_log_log(const std::vector<Run>&, const FitOptions&, std::vector<Response> responses);
 
 /// The velocity fit with the difference filter of options.possible_filters, and the share of white
 /// noise, that have the largest restricted likelihood; the likelihood is computed around `plain`, a
 /// fit without a filter. None if white noise alone, or a mean of speeds, is nearly as likely or
 /// more likely, or if the residuals of the new fit are not white or are uneven along the runs.
-std::optional<Fitted> fit_differences(const std::vector<FitRun>&, const FitOptions&,
+std::optional<Fitted> fit_differences(const std::vector<Run>&, const FitOptions&,
                                       const Fitted& plain);
 
 /// An estimate of the share of white noise (the share of Noise).

@@ -59,7 +59,7 @@ WhiteShare most_likely_share(const Model& model, const std::vector<double>& thet
 
 namespace {
 
-std::vector<Response> responses_by(const LinearFilter& filter, const std::vector<FitRun>& all) {
+std::vector<Response> responses_by(const LinearFilter& filter, const std::vector<Run>& all) {
   std::vector<Response> responses;
   for (const auto& run : all) responses.push_back(response_of({filter}, run.t));
   return responses;
@@ -75,7 +75,7 @@ struct Maker {
 /// The filter and the share with the largest restricted likelihood; no filter if white noise alone
 /// is nearly as likely. A filter rounds off the stop, and what its roll leaves there looks like
 /// correlated noise: so the roll without a filter is the one to compare with.
-Maker most_likely(const std::vector<FitRun>& all, const std::vector<Rows>& rows,
+Maker most_likely(const std::vector<Run>& all, const std::vector<Rows>& rows,
                   const FitOptions& options, const Fitted& plain) {
   const double least = std::exp(-12), most = std::exp(4);
   const std::vector<double>& theta = plain.minimum.theta;
@@ -109,7 +109,7 @@ std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
 /// Sensors' programs differ in how they treat the ends of a run and lost rows; elsewhere the
 /// candidates are known. This function removes from `rows` the rows whose window reaches an end
 /// or a gap; it returns false if that would be half of a run: what is left would be another run.
-bool leave_out_irregular(const std::vector<FitRun>& all, std::vector<Rows>& rows,
+bool leave_out_irregular(const std::vector<Run>& all, std::vector<Rows>& rows,
                          std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::size_t n = all[r].t.size(), before = rows[r].size();
@@ -137,7 +137,7 @@ double lag_of(const LinearFilter& filter, const std::vector<double>& t) {
 
 /// On even times differences to the row before, to the row after and over the middle of a step
 /// differ in the clock alone. The speeds are taken as those of their rows, as they are said to be.
-void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<FitRun>& all) {
+void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<Run>& all) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     double& v0 = fit.v0[r].value;
     v0 -=
@@ -164,14 +164,14 @@ bool may_be_differences(const Fitted& plain) {
 
 }  // namespace
 
-std::optional<Fitted> fit_differences(const std::vector<FitRun>& all, const FitOptions& options,
+std::optional<Fitted> fit_differences(const std::vector<Run>& all, const FitOptions& options,
                                       const Fitted& plain) {
   if (!may_be_differences(plain)) return {};
   std::size_t reach = 0;
   for (const auto& filter : options.possible_filters) reach = std::max(reach, filter.reach);
-  std::vector<FitRun> heads;
+  std::vector<Run> heads;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    FitRun& head = heads.emplace_back();
+    Run& head = heads.emplace_back();
     head.body = all[r].body;
     for (std::size_t i = 0; i < std::min(all[r].t.size(), searched); ++i)
       head.t.push_back(all[r].t[i]), head.v.push_back(all[r].v[i]);

@@ -25,7 +25,7 @@ void require_ways(const std::vector<ObservedRun>& runs, const FitOptions& option
 /// were any. The fitted speed decides, because a threshold on noisy speeds would select rows by
 /// their noise.
 bool leave_out_slow(const Model& model, const std::vector<double>& theta,
-                    const std::vector<FitRun>& all, std::vector<Rows>& rows, double limit) {
+                    const std::vector<Run>& all, std::vector<Rows>& rows, double limit) {
   std::size_t slow = 0;
   for (std::size_t r = 0; r < all.size(); ++r) {
     Roll fitted = model.roll(theta, r);
@@ -47,7 +47,7 @@ bool leave_out_slow(const Model& model, const std::vector<double>& theta,
 Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
   constexpr std::size_t many = 2048;  // rows times runs
   const auto& runs = rolls.runs();
-  if (runs.front().column == RawColumn::x || system.own == 0 ||
+  if (runs.front().column == Quantity::x || system.own == 0 ||
       system.residuals() * runs.size() > many)
     return best;
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -130,7 +130,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   return fit_from({own, {all.theta_of_run(theta, r)}}, {std::move(run)}, std::move(noise), options);
 }
 
-Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> rows,
+Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> rows,
                  std::vector<Response> responses, const FitOptions& options, AddedNoise added) {
   std::optional<FirstGuess> guess;
   Fitted fit{};
@@ -160,9 +160,9 @@ Fitted fit_rolls(Route route, const std::vector<FitRun>& all, std::vector<Rows> 
   return fit;
 }
 
-std::vector<Rows> usable(Route route, const std::vector<FitRun>& all) {
+std::vector<Rows> usable(Route route, const std::vector<Run>& all) {
   std::vector<Rows> rows;
-  for (const FitRun& run : all) {
+  for (const Run& run : all) {
     const auto& y = run[fitted_column(route)];
     Rows& of_run = rows.emplace_back();
     of_run.reserve(y.size());

@@ -57,7 +57,7 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
 
 }  // namespace
 
-Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, double stop) {
+Rows shift_rows(const Run& run, const FitOptions& options, bool logarithms, double stop) {
   const auto rolls = [&](std::size_t i) { return stop == INFINITY || run.t[i] < stop; };
   double sum = 0;
   for (std::size_t i = 0; i < run.v.size(); ++i)
@@ -76,17 +76,17 @@ Rows shift_rows(const FitRun& run, const FitOptions& options, bool logarithms, d
   return rows;
 }
 
-std::vector<ObservedRun> observed_shifts(const std::vector<FitRun>& all,
+std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all,
                                          const std::vector<Rows>& rows, const FitOptions& options,
                                          bool logarithms) {
   std::vector<ObservedRun> runs;
   std::vector<double> speeds;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const FitRun& run = all[r];
+    const Run& run = all[r];
     if (rows[r].empty()) continue;
     const double way = run.v[rows[r].front()] < 0 ? -1 : 1;
     ObservedRun& seen = runs.emplace_back();
-    seen.column = logarithms ? RawColumn::ln_D : RawColumn::D;
+    seen.column = Quantity::D, seen.logarithm = logarithms;
     for (const std::size_t i : rows[r]) {
       seen.t.push_back(way * run.v[i]);
       seen.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
@@ -106,9 +106,9 @@ Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitO
   return {options, std::exp(sum / n)};
 }
 
-Fitted fit_shift(const std::vector<FitRun>& all, const FitOptions& options) {
+Fitted fit_shift(const std::vector<Run>& all, const FitOptions& options) {
   std::vector<Rows> rows;
-  for (const FitRun& run : all) rows.push_back(shift_rows(run, options, false));
+  for (const Run& run : all) rows.push_back(shift_rows(run, options, false));
   std::vector<ObservedRun> runs = observed_shifts(all, rows, options, false);
   const Parameters q = parameters_of_shifts(runs, options);
   const PowerLaw start = power_start(runs, q.speed_unit(), options);
@@ -121,7 +121,7 @@ namespace {
 /// The best-fitting roll that made the rows of a line, without its weights, which are large;
 /// nothing if the filters are unknown, no roll fits, or the columns hold other noise, as that of
 /// rounding. It is fitted to all rows; a selection of those with D > 0 would select by their noise.
-std::optional<Fitted> known_roll(const std::vector<FitRun>& runs, const FitOptions& options,
+std::optional<Fitted> known_roll(const std::vector<Run>& runs, const FitOptions& options,
                                  const std::vector<Response>& responses) {
   if (responses.empty()) return {};
   try {
@@ -139,7 +139,7 @@ std::optional<Fitted> known_roll(const std::vector<FitRun>& runs, const FitOptio
 /// known filters. The bias of a point has two causes: smoothing bends the curve D(v), and the
 /// logarithm of a noisy number is too low on average. Its noise is also smaller than the relative
 /// noise of D.
-void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vector<Rows>& rows,
+void carry_noise(Fitted& line, const std::vector<Run>& runs, const std::vector<Rows>& rows,
                  const std::vector<Response>& responses, Fitted roll) {
   SeenNoise& noise = *roll.noise_of_roll;
   const PowerLaw law = *roll.law().power();
@@ -198,9 +198,9 @@ void carry_noise(Fitted& line, const std::vector<FitRun>& runs, const std::vecto
 
 }  // namespace
 
-Fitted fit_log_log(const std::vector<FitRun>& all, const FitOptions& options,
+Fitted fit_log_log(const std::vector<Run>& all, const FitOptions& options,
                    std::vector<Response> responses) {
-  std::vector<FitRun> runs;  // that have a logarithm
+  std::vector<Run> runs;  // that have a logarithm
   std::vector<Response> theirs;
   for (std::size_t r = 0; r < all.size(); ++r) {
     if (shift_rows(all[r], options, true).empty()) continue;

@@ -17,7 +17,7 @@ namespace {
 
 /// The run whose rows are means of blocks of so many of the first n rows; the last may be shorter.
 ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
-  ObservedRun thin{run.place, run.body, run.geometry, run.way, run.origin, run.column, {}, {}, {}};
+  ObservedRun thin{run.place, run.body, run.geometry, run.way, run.origin, run.column};
   for (std::size_t i = 0; i < n; i += size) {
     const std::size_t rows = std::min(size, n - i);
     const auto mean = [&](const std::vector<double>& x) {
@@ -50,7 +50,7 @@ std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options)
     double y = 0, slope = 0;  // by u = t/half - 1
     for (std::size_t j = terms; j-- > 0;)
       slope = slope * (t / half - 1) + y, y = y * (t / half - 1) + c[j];
-    const double v = run.way * (run.column == RawColumn::x ? slope / half : y);
+    const double v = run.way * (run.column == Quantity::x ? slope / half : y);
     rests |= level && v <= 0 && !speeds.empty() && speeds.back() > 0;
     speeds.push_back(rests || (level && v < 0) ? 0 : v);
   }
@@ -76,7 +76,7 @@ struct Thinned {
 
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
-  const bool position = run.column == RawColumn::x;
+  const bool position = run.column == Quantity::x;
   const double x0 = options.x0.value_or(position ? run.y[0] : 0);
   std::vector<double> way(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -160,10 +160,10 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
   for (const Thinned& of : thin) {
     const ObservedRun& run = of.run;
     const double n = static_cast<double>(run.t.size()),
-                 x = run.column == RawColumn::x
+                 x = run.column == Quantity::x
                          ? options.x0.value_or(std::accumulate(run.y.begin(), run.y.end(), 0.0) / n)
                          : 0;
-    square += std::pow(far * (run.column == RawColumn::x ? of.way : of.fastest()), 2) * n;
+    square += std::pow(far * (run.column == Quantity::x ? of.way : of.fastest()), 2) * n;
     for (const double y : run.y) at_rest += (y - x) * (y - x);
   }
   for (const auto& [run, way, turns, speeds] : thin)
@@ -196,7 +196,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
     thin.push_back(thinned(run, options));
     thin_runs.push_back(thin.back().run);
   }
-  const bool position = runs.front().column == RawColumn::x;
+  const bool position = runs.front().column == Quantity::x;
   const double v = thin.front().fastest() / 2,
                time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);

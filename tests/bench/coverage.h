@@ -75,10 +75,10 @@ class Simulation {
   std::size_t rows() const { return n_; }
 
   /// The run of this number in a joint fit.
-  rolling::FitRun next(int i) {
+  rolling::Run next(int i) {
     way_ = i < c_.runs - c_.down ? 1 : -1;
     times_the_noise_ = i < c_.runs - c_.noisy ? 1 : 5;
-    rolling::FitRun run{};
+    rolling::Run run{};
     run.body = scene_.body();
     const Column raw = c_.ending     ? pushed_roll(run.t)
                        : c_.whole    ? free_roll(run.t)
@@ -145,7 +145,7 @@ class Simulation {
     return x;
   }
   /// The speeds of a wheel: the way of a pulse over the time since the one before.
-  void pulses(rolling::FitRun& run) {
+  void pulses(rolling::Run& run) {
     for (std::size_t i = 1; i < run.t.size(); ++i) run.v[i] = c_.gate / (run.t[i] - run.t[i - 1]);
     if (const auto way = rolling::way_between_pulses(run.t, run.v))
       for (std::size_t i = 0; i < run.t.size(); ++i) run.x[i] = *way * static_cast<double>(i);
@@ -233,7 +233,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   Row row;
   std::vector<double> as, bs;
   for (int k = 0; k < runs; ++k) {
-    std::vector<rolling::FitRun> joint;
+    std::vector<rolling::Run> joint;
     for (int i = 0; i < c.runs; ++i) joint.push_back(simulation.next(i));
     const auto begin = std::chrono::steady_clock::now();
     try {

@@ -40,7 +40,7 @@ inline int disagreements(PowerLaw law, int rolls, double slope, int sets, unsign
   simulated::Noise noise(seed);
   int all = 0;
   for (int k = 0; k < sets; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (int i = 0; i < rolls; ++i)
       runs.push_back(rolls::roll(law, slope, slope != 0 && i % 2 ? -1 : 1, noise));
     all += !fit(Route::position, runs, {}).agreement->agree();
@@ -58,7 +58,7 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
   FitOptions options;
   options.fit_slope = true;
   for (int k = 0; k < pairs; ++k) {
-    const std::vector<FitRun> runs{rolls::roll(law, slope, 1, noise),
+    const std::vector<Run> runs{rolls::roll(law, slope, 1, noise),
                                    rolls::roll(law, slope, -1, noise)};
     const FitResult r = fit(Route::position, runs, options);
     all.a.add(r.a, r.sigma_a);
@@ -92,7 +92,7 @@ inline TurningRuns turning_runs(const Turning& body, double slope, Route route, 
   const double turn = roll.stop_time();
   for (int k = 0; k < runs; ++k) {
     const double way = k % 2 ? 1 : -1;
-    FitRun run;
+    Run run;
     run.body = {1, body.R, body.K};
     for (double t = 0; t < turn || (t < 3 * turn && roll.at(t).x > 0.02); t += 0.04) {
       run.t.push_back(t);
@@ -132,7 +132,7 @@ inline InputQuantities input_quantities(int draws, unsigned seed) {
   double ab = 0;
   const int stating = (draws + 99) / 100;
   for (int k = 0; k < draws; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = body;
     for (double t = 0; t < 0.9 * truth.stop_time(); t += 0.05) {
       run.t.push_back(t);
@@ -174,7 +174,7 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
   options.min_speed = limit;
   Roll truth(troubled::cylinder, Geometry::approximate, law, troubled::v0);
   for (int k = 0; k < runs; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = troubled::cylinder;
     for (double t = 0; t < truth.stop_time(); t += troubled::dt) {
       run.t.push_back(t);
@@ -193,7 +193,7 @@ inline Tally remedied(const troubled::Trouble& wrong, PowerLaw law, int runs, un
   troubled::Readings readings(troubled::path(law, wrong), wrong, seed);
   Tally a{law.a};
   for (int k = 0; k < runs; ++k) {
-    FitRun run = readings.next();
+    Run run = readings.next();
     if (wrong.K != troubled::cylinder.K) run.body.sigma_K = wrong.K - troubled::cylinder.K;
     while (wrong.hand > 0 && run.t.front() < wrong.hand)
       run.t.erase(run.t.begin()), run.x.erase(run.x.begin());

@@ -69,8 +69,8 @@ class Readings {
   Readings(std::vector<double> x, const Trouble& wrong, unsigned seed)
       : path_(std::move(x)), wrong_(wrong), noise_(seed), random_(seed + 1) {}
 
-  rolling::FitRun next() {
-    rolling::FitRun run{};
+  rolling::Run next() {
+    rolling::Run run{};
     run.body = cylinder;
     run.body.K = wrong_.K;
     double error = 0;
@@ -112,7 +112,7 @@ inline Verdict judge(const Trouble& wrong, rolling::PowerLaw law, int runs, unsi
   options.robust = wrong.outliers > 0;
   Verdict sum;
   for (int i = 0; i < runs; ++i) {
-    const rolling::FitRun run = readings.next();
+    const rolling::Run run = readings.next();
     try {
       const auto r = rolling::fit(rolling::Route::position, {run}, options);
       sum.bias += (r.a / law.a - 1) / runs;

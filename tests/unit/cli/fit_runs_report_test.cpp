@@ -7,7 +7,7 @@ using namespace rolling;
 
 TEST_CASE("fit report: runs that disagree are told with the run that stands out, and by how much",
           "[cli]") {
-  std::vector<FitRun> runs(3);
+  std::vector<Run> runs(3);
   runs[1].name = "two";
   Agreement found{.dof = 2, .ratio = 20, .p = 1e-4, .runs = 3, .run = 1, .speed = 0.5};
   found.log_D = {std::log(1.1), 0.01};

@@ -213,8 +213,8 @@ TEST_CASE(
 namespace {
 
 /// A run of noisy speeds that was smoothed, differentiated and turned into shifts.
-FitRun shifts(std::size_t n, double size = 0.005) {
-  FitRun run{};
+Run shifts(std::size_t n, double size = 0.005) {
+  Run run{};
   simulated::Noise noise(3);
   for (std::size_t i = 0; i < n; ++i) {
     run.t.push_back(0.04 * static_cast<double>(i));
@@ -231,11 +231,11 @@ FitRun shifts(std::size_t n, double size = 0.005) {
   return run;
 }
 
-History claimed(const FitRun& run) { return {run.filters, run.shift_of, {}}; }
+History claimed(const Run& run) { return {run.filters, run.shift_of, {}}; }
 
-FitRun cut(const FitRun& run, std::size_t first, std::size_t last) {
-  FitRun rest = run;
-  for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
+Run cut(const Run& run, std::size_t first, std::size_t last) {
+  Run rest = run;
+  for (auto column : {&Run::t, &Run::v, &Run::D})
     (rest.*column)
         .assign((run.*column).begin() + static_cast<std::ptrdiff_t>(first),
                 (run.*column).begin() + static_cast<std::ptrdiff_t>(last));
@@ -245,9 +245,9 @@ FitRun cut(const FitRun& run, std::size_t first, std::size_t last) {
 }  // namespace
 
 TEST_CASE("history: rows cut off the ends after the filters are noticed by the columns", "[cli]") {
-  const FitRun whole = shifts(40);
+  const Run whole = shifts(40);
   const auto cuts = [&](std::size_t first, std::size_t last) {
-    FitRun run = cut(whole, first, last);
+    Run run = cut(whole, first, last);
     const History history = give_filters(claimed(run), run, {Quantity::v, Quantity::D});
     CHECK(history.filters.size() == 3);
     return std::pair(history.cut_begin, history.cut_end);
@@ -256,12 +256,12 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   CHECK(cuts(5, 40) == std::pair(true, false));
   CHECK(cuts(0, 35) == std::pair(false, true));
   CHECK(cuts(5, 35) == std::pair(true, true));
-  FitRun hole = whole, other = whole, scaled = whole;
-  for (auto column : {&FitRun::t, &FitRun::v, &FitRun::D})
+  Run hole = whole, other = whole, scaled = whole;
+  for (auto column : {&Run::t, &Run::v, &Run::D})
     (hole.*column).erase((hole.*column).begin() + 20, (hole.*column).begin() + 25);
   for (double& D : other.D) D *= 1.2;
   for (double& D : scaled.D) D *= 1.0001;
-  for (FitRun run : {hole, other, scaled}) {
+  for (Run run : {hole, other, scaled}) {
     const History history = give_filters(claimed(run), run, {Quantity::v, Quantity::D});
     CHECK(history.filters.empty());
     CHECK(history.doubt == "the columns are not what the `##` lines say");
@@ -269,12 +269,12 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
   // Of many numbers the largest are rounded by far more than the median one: here |D| is 2.6e-3 on
   // average, and a few are above 1e-2.
   for (const int digits : {3, 4, 6}) {
-    FitRun rounded = shifts(50000, 0.085);
+    Run rounded = shifts(50000, 0.085);
     for (double& D : rounded.D) D = std::stod(fmt::format("{:.{}g}", D, digits));
     CHECK(give_filters(claimed(rounded), rounded, {Quantity::v, Quantity::D}).filters.size() == 3);
   }
   for (const double unit : {1e-7, 1e-6, 1e-5}) {
-    FitRun rounded = whole;
+    Run rounded = whole;
     for (double& D : rounded.D) D = unit * std::round(D / unit);
     CHECK(give_filters(claimed(rounded), rounded, {Quantity::v, Quantity::D}).filters.size() == 3);
   }
@@ -282,8 +282,8 @@ TEST_CASE("history: rows cut off the ends after the filters are noticed by the c
 
 TEST_CASE("history: the readings beside a cut are left out, their times are not", "[cli]") {
   for (const auto& [begin, end] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-    FitRun run = shifts(40);
-    const FitRun whole = run;
+    Run run = shifts(40);
+    const Run whole = run;
     History history = claimed(run);
     history.cut_begin = begin == 1, history.cut_end = end == 1;
     history = give_filters(std::move(history), run, {Quantity::v, Quantity::D});
@@ -299,7 +299,7 @@ TEST_CASE("history: the readings beside a cut are left out, their times are not"
       CHECK((no_v ? std::isnan(run.v[i]) : run.v[i] == whole.v[i]));
     }
   }
-  FitRun few = shifts(15);
+  Run few = shifts(15);
   History history = claimed(few);
   history.cut_begin = history.cut_end = true;
   history = give_filters(std::move(history), few, {Quantity::v, Quantity::D});
@@ -332,7 +332,7 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
                                "1e-300", "K",  "exact", "",          "\x80", "coast"};
   std::size_t fitted = 0, refused = 0;
   for (int k = 0; k < 4000; ++k) {
-    FitRun run = shifts(k % 3 ? 5 + any(30) : 2 + any(5));
+    Run run = shifts(k % 3 ? 5 + any(30) : 2 + any(5));
     if (k % 7 == 0) run.t.clear();
     Lines lines;
     for (std::size_t i = any(6); i > 0; --i) {

@@ -18,9 +18,9 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 
 /// Positions on felt every 40 ms; the speed stays for `hand` seconds.
-FitRun held(double hand, simulated::Noise& noise, double AR = 0) {
+Run held(double hand, simulated::Noise& noise, double AR = 0) {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.0244, 0.5);
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   double error = 0;
   for (int i = 0; i < 120; ++i) {
@@ -32,7 +32,7 @@ FitRun held(double hand, simulated::Noise& noise, double AR = 0) {
   return run;
 }
 
-FitRun without_first(FitRun run, std::size_t k) {
+Run without_first(Run run, std::size_t k) {
   for (auto* column : {&run.t, &run.x})
     column->erase(column->begin(), column->begin() + static_cast<std::ptrdiff_t>(k));
   return run;
@@ -46,7 +46,7 @@ FitRun without_first(FitRun run, std::size_t k) {
 TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
   simulated::Noise noise(4);
   for (int i = 0; i < 5; ++i) {
-    const FitRun run = held(0.3, noise);
+    const Run run = held(0.3, noise);
     const auto found = disturbed_beginning(Route::position, {run}, {});
     REQUIRE(found);
     CHECK(found->run == 0);
@@ -69,7 +69,7 @@ TEST_CASE("beginning: the chance is that of Chow's F of two fits", "[fit]") {
 
 TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
   simulated::Noise noise(5);
-  const std::vector<FitRun> runs{held(0, noise), held(0.3, noise), held(0, noise)};
+  const std::vector<Run> runs{held(0, noise), held(0.3, noise), held(0, noise)};
   const auto found = disturbed_beginning(Route::position, runs, {});
   REQUIRE(found);
   CHECK(found->run == 1);
@@ -79,8 +79,8 @@ TEST_CASE("beginning: in joint fits the run that shows it is named", "[fit]") {
 TEST_CASE("beginning: in joint fits a run is judged by its own law", "[fit]") {
   simulated::Noise noise(11);
   for (int i = 0; i < 10; ++i) {
-    const FitRun run = held(0.3, noise);
-    FitRun other = held(0, noise);
+    const Run run = held(0.3, noise);
+    Run other = held(0, noise);
     for (double& x : other.x) x += noise(3e-3);
     const auto alone = disturbed_beginning(Route::position, {run}, {}),
                found = disturbed_beginning(Route::position, {other, run}, {});
@@ -98,7 +98,7 @@ TEST_CASE("beginning: a run that has no parameters of its own is not tested", "[
   FitOptions options;
   options.a = 5.75e-4, options.b = 0.0244, options.v0 = 0.5, options.x0 = 0;
   options.fit_slope = true;
-  const std::vector<FitRun> runs{held(0.3, noise), held(0.3, noise)};
+  const std::vector<Run> runs{held(0.3, noise), held(0.3, noise)};
   CHECK_FALSE(disturbed_beginning(Route::position, runs, options));
 }
 
@@ -106,14 +106,14 @@ TEST_CASE("beginning: a run that has no parameters of its own is not tested", "[
 TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand", "[fit][many]") {
   simulated::Noise noise(9), more(10);
   const auto with = [&](const std::function<double(int)>& sigma) {
-    FitRun run = held(0, noise);
+    Run run = held(0, noise);
     for (std::size_t i = 0; i < run.x.size(); ++i) run.x[i] += more(sigma(static_cast<int>(i)));
     return run;
   };
   const auto even = [&](double sigma) { return with([=](int) { return sigma; }); };
   int at_first = 0, falling = 0, in_one = 0;
   for (int i = 0; i < 200; ++i) {
-    const FitRun first = with([](int k) { return k < 26 ? 1e-3 : 0; }),
+    const Run first = with([](int k) { return k < 26 ? 1e-3 : 0; }),
                  less = with([](int k) { return 3e-3 * (1 - k / 130.0); });
     at_first += disturbed_beginning(Route::position, {first}, {}).has_value();
     falling += disturbed_beginning(Route::position, {less}, {}).has_value();
@@ -134,13 +134,13 @@ TEST_CASE("beginning: free rolls, noise of long memory and fits of no roll show 
   }
   CHECK(free <= 3);
   CHECK(of_memory <= 30);  // in most of them the others are not white either
-  FitRun curve{};
+  Run curve{};
   for (int i = 0; i < 60; ++i) {
     curve.v.push_back(0.5 - 0.005 * i);
     curve.D.push_back(i < 5 ? 0 : 6e-4 + noise(1e-5));
   }
   CHECK_FALSE(disturbed_beginning(Route::shift, {curve}, {}));
-  FitRun few = held(0.3, noise);
+  Run few = held(0.3, noise);
   for (auto* column : {&few.t, &few.x}) column->resize(23);
   CHECK_FALSE(disturbed_beginning(Route::position, {few}, {}));
 }
@@ -149,8 +149,8 @@ TEST_CASE("beginning: free rolls, noise of long memory and fits of no roll show 
 TEST_CASE("beginning: in columns of known filters the test for white residuals sees it", "[fit]") {
   simulated::Noise noise(7);
   for (double hand : {0.3, 0.0}) {
-    const FitRun raw = held(hand, noise);
-    FitRun run = simulated::shifts(cylinder, raw.t, raw.x, 5, "x");
+    const Run raw = held(hand, noise);
+    Run run = simulated::shifts(cylinder, raw.t, raw.x, 5, "x");
     run.body = cylinder;
     CHECK_FALSE(disturbed_beginning(Route::shift, {run}, {}));
     CHECK((fit(Route::shift, {run}, {}).whiteness < 0.005) == (hand > 0));
@@ -163,7 +163,7 @@ TEST_CASE("beginning: rows that alone determine the roll cannot be tested", "[fi
   simulated::Noise noise(8);
   int found = 0;
   for (int k = 0; k < 300; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     for (int i = 0; i < 60; ++i) {
       run.t.push_back(0.1 * i);

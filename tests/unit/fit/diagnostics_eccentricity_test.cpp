@@ -19,8 +19,8 @@ double smooth(double t) { return v * t - k * 2e-6 / 2 * t * t; }
 
 /// A body of all but steady speed, whose weight turns it by e once a turn: to first order its x has
 /// k e (R/v)^2 cos(x/R - phase) more.
-FitRun wobbling(double size, double noise, double end = 4, double step = 0.03) {
-  FitRun run{};
+Run wobbling(double size, double noise, double end = 4, double step = 0.03) {
+  Run run{};
   run.body = body;
   simulated::Noise random(5);
   const double amplitude = k * size * std::pow(body.R / v, 2);
@@ -36,7 +36,7 @@ FitRun wobbling(double size, double noise, double end = 4, double step = 0.03) {
 struct Harmonic {
   double size, phase, sigma, p;
 };
-Harmonic harmonic(const FitRun& run) {
+Harmonic harmonic(const Run& run) {
   constexpr std::size_t p = 5;
   double A[p][2 * p + 1] = {};  // the normal matrix, the right-hand side, and the unit matrix
   const auto row = [&](std::size_t i) {
@@ -76,7 +76,7 @@ Harmonic harmonic(const FitRun& run) {
           std::pow(1 + 2 * F / freedom, -freedom / 2)};
 }
 
-FitResult fitted(const FitRun& run) {
+FitResult fitted(const Run& run) {
   FitOptions options;
   options.b = 0;
   return fit(Route::position, {run}, options);
@@ -85,7 +85,7 @@ FitResult fitted(const FitRun& run) {
 }  // namespace
 
 TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[fit]") {
-  const FitRun run = wobbling(e, 1e-5, 1.2);
+  const Run run = wobbling(e, 1e-5, 1.2);
   const auto found = fitted(run).eccentricity;
   REQUIRE(found);
   const Harmonic by_hand = harmonic(run);
@@ -98,7 +98,7 @@ TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[f
 }
 
 TEST_CASE("eccentricity: shifts made of the positions tell what the positions tell", "[fit]") {
-  const FitRun run = wobbling(e, 1e-5);
+  const Run run = wobbling(e, 1e-5);
   FitOptions options;
   options.b = 0;
   const auto by_x = fitted(run).eccentricity,
@@ -112,20 +112,20 @@ TEST_CASE("eccentricity: shifts made of the positions tell what the positions te
 
 TEST_CASE("eccentricity: of another period, or none, it is not said", "[fit]") {
   CHECK_FALSE(fitted(wobbling(0, 1e-5)).eccentricity);
-  FitRun other = wobbling(e, 1e-5);
+  Run other = wobbling(e, 1e-5);
   other.body.R *= 1.4;
   CHECK_FALSE(fitted(other).eccentricity);
 }
 
 TEST_CASE("eccentricity: the run of several that has it is named; less than a turn tells nothing",
           "[fit]") {
-  const FitRun good = wobbling(0, 1e-5), bad = wobbling(e, 1e-5);
+  const Run good = wobbling(0, 1e-5), bad = wobbling(e, 1e-5);
   FitOptions options;
   options.b = 0;
   const auto found = fit(Route::position, {good, bad, good}, options).eccentricity;
   REQUIRE(found);
   CHECK(found->run == 1);
-  FitRun brief = bad;
+  Run brief = bad;
   brief.t.resize(10), brief.x.resize(10);
   CHECK_FALSE(fitted(brief).eccentricity);
 }
@@ -134,11 +134,11 @@ TEST_CASE("eccentricity: the run of several that has it is named; less than a tu
 TEST_CASE("eccentricity: the noise of each run is its own", "[fit]") {
   FitOptions options;
   options.b = 0;
-  const FitRun quiet = wobbling(0, 1e-6);
+  const Run quiet = wobbling(0, 1e-6);
   simulated::Noise noise(10);
   int found = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    FitRun loud = quiet;
+    Run loud = quiet;
     for (double& x : loud.x) x += noise(1e-5);
     found += fit(Route::position, {quiet, quiet, quiet, quiet, quiet, loud}, options)
                  .eccentricity.has_value();

@@ -9,12 +9,12 @@ using namespace rolls;
 
 namespace {
 
-FitRun roll_of(unsigned seed, PowerLaw law = rubber) {
+Run roll_of(unsigned seed, PowerLaw law = rubber) {
   simulated::Noise noise(seed);
   return roll(law, 0, 1, noise);
 }
 
-FitResult fitted(const FitRun& run, bool robust = false) {
+FitResult fitted(const Run& run, bool robust = false) {
   FitOptions options;
   options.robust = robust;
   return fit(Route::position, {run}, options);
@@ -24,11 +24,11 @@ FitResult fitted(const FitRun& run, bool robust = false) {
 
 TEST_CASE("a zero, a spike and a burst are named with their time", "[many]") {
   for (unsigned seed = 0; seed < 40; ++seed) {
-    const FitRun good = roll_of(seed, seed % 2 ? rubber : felt);
+    const Run good = roll_of(seed, seed % 2 ? rubber : felt);
     CHECK(fitted(good).off.count == 0);
     const std::size_t n = good.t.size(), at = 2 + seed * (n - 6) / 40;
     for (const std::size_t burst : {1U, 3U}) {
-      FitRun run = good;
+      Run run = good;
       for (std::size_t i = at; i < at + burst; ++i) run.x[i] += 0.006;  // 20 times the noise
       const auto off = fitted(run).off;
       INFO(seed << ", " << burst << " from " << at << " of " << n);
@@ -44,8 +44,8 @@ TEST_CASE("a zero, a spike and a burst are named with their time", "[many]") {
 // The first and the last reading of a short run bend the roll to themselves.
 TEST_CASE("a reading that is off at an end of twenty is named", "[many]") {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const FitRun all = roll_of(seed);
-    FitRun good = all;
+    const Run all = roll_of(seed);
+    Run good = all;
     good.t.clear(), good.x.clear();
     for (std::size_t i = 0; i < 20; ++i) {
       const std::size_t k = i * (all.t.size() - 1) / 19;
@@ -53,7 +53,7 @@ TEST_CASE("a reading that is off at an end of twenty is named", "[many]") {
     }
     CHECK(fitted(good).off.count == 0);
     for (const std::size_t at : {0U, 1U, 18U, 19U}) {
-      FitRun run = good;
+      Run run = good;
       run.x[at] += 0.012;  // 40 times the noise
       const auto off = fitted(run).off;
       INFO(seed << ", " << at);
@@ -67,13 +67,13 @@ TEST_CASE("a reading that is off at an end of twenty is named", "[many]") {
 // of the sums of squares with it and without it, which the fits of both show: as long as the roll
 // is nearly linear in its numbers.
 TEST_CASE("the distance of a single reading is that of Student's t, whatever its leverage") {
-  const FitRun all = roll_of(4);
-  FitRun few = all;
+  const Run all = roll_of(4);
+  Run few = all;
   constexpr std::size_t n = 30;
   few.t.resize(n), few.x.resize(n);
   const double freedom = n - 4, without = std::pow(fitted(few).rms, 2) * freedom;
   for (const auto& [at, off] : {std::pair(n, 0.006), {n, 0.01}, {33, 0.006}, {36, 0.006}}) {
-    FitRun run = few;
+    Run run = few;
     run.t.push_back(all.t.at(at)), run.x.push_back(all.x.at(at) + off);
     const FitResult with = fitted(run);
     const double F = (std::pow(with.rms, 2) * (freedom + 1) - without) / without * freedom;
@@ -84,10 +84,10 @@ TEST_CASE("the distance of a single reading is that of Student's t, whatever its
 }
 
 TEST_CASE("a spike in positions is found behind differences and means") {
-  const FitRun raw = roll_of(3, felt);
+  const Run raw = roll_of(3, felt);
   std::vector<double> x = raw.x;
   x[70] += 0.006;
-  const FitRun run = simulated::shifts(cylinder, raw.t, x, 5, "x");
+  const Run run = simulated::shifts(cylinder, raw.t, x, 5, "x");
   const auto off = fit(Route::shift, {run}, {}).off;
   REQUIRE(off.count > 0);
   CHECK(off.time == Approx(raw.t[70]));
@@ -97,7 +97,7 @@ TEST_CASE("a spike in positions is found behind differences and means") {
 TEST_CASE("bursts and lost echoes are no eccentricity", "[many]") {
   int told = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    FitRun run = roll_of(seed, felt);
+    Run run = roll_of(seed, felt);
     for (const std::size_t at : {9U, 40U, 77U, 110U}) run.x[at + seed % 7] = 0;
     told += fitted(run).eccentricity.has_value();
   }
@@ -106,7 +106,7 @@ TEST_CASE("bursts and lost echoes are no eccentricity", "[many]") {
 
 TEST_CASE("no standard uncertainty is below what the rounding of the readings leaves", "[many]") {
   // Four of six readings at rest leave no noise: b is -0.14, but nobody knows.
-  FitRun run{};
+  Run run{};
   run.body = {1, 0.0125, 0.03};
   run.t = {0, .05, .1, .15, .2, .25};
   run.x = {2.906, 2.914, 2.917, 2.917, 2.917, 2.917};
@@ -120,7 +120,7 @@ TEST_CASE("no standard uncertainty is below what the rounding of the readings le
   double squares = 0;
   int fits = 0;
   for (int phase = 0; phase < 100; ++phase) {
-    FitRun rounded{};
+    Run rounded{};
     rounded.body = cylinder;
     const auto truth = simulated::roll(cylinder, felt.a, felt.b, 0.5);
     for (int i = 0; i < 12; ++i) {
@@ -136,7 +136,7 @@ TEST_CASE("no standard uncertainty is below what the rounding of the readings le
 TEST_CASE("the floor of rounding holds where no reading repeats, but not for gates") {
   const auto truth = simulated::roll(cylinder, felt.a, felt.b, 0.5);
   const auto sigma = [&](double off) {  // positions on a grid of 1 mm, met to this part of it
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     for (int i = 1; i <= 12; ++i) {
       const double x = 1e-3 * (100 * i + 37 * i % 10), part = off * 1e-3 * (i % 2 ? 1 : -1);
@@ -163,7 +163,7 @@ TEST_CASE("readings of a clock that meet a roll by chance have the floor of roun
     for (const double q : {1e-4, 1e-3, 1e-2})
       for (const int lost : {0, 1, 2}) {  // the last but one, or from the third on every second
         if (lost == 2 && rows < 8) continue;
-        FitRun run{};
+        Run run{};
         run.body = cylinder;
         for (std::size_t i = 0; i < rows; ++i) {
           if ((lost == 1 && i == rows - 2) || (lost == 2 && i > 1 && i % 2 == 0)) continue;
@@ -185,7 +185,7 @@ TEST_CASE("readings of a clock that meet a roll by chance have the floor of roun
 TEST_CASE("a v0 that no reading comes near is refused") {
   for (const double off : {0.005, 0.02, 0.1, 0.5, 3.0})
     for (const PowerLaw law : {rubber, felt}) {
-      FitRun run = roll_of(1, law);
+      Run run = roll_of(1, law);
       run.x.front() -= off;
       CHECK(std::abs(fitted(run, true).v0[0].value - 0.5) < 0.01);
       try {

@@ -10,15 +10,15 @@ using namespace rolls;
 namespace {
 
 /// White speeds at 25 Hz, with the noise of differences of positions.
-FitRun speeds(PowerLaw law, unsigned seed) {
+Run speeds(PowerLaw law, unsigned seed) {
   simulated::Noise noise(seed);
-  FitRun run = roll(law, 0, 1, noise, 0);
+  Run run = roll(law, 0, 1, noise, 0);
   const simulated::Roll truth = simulated::roll(cylinder, law.a, law.b, 0.5);
   for (const double t : run.t) run.v.push_back(truth.v(t) + noise(5.3e-3));
   return run;
 }
 
-double reversals(const FitRun& run) { return fit(Route::velocity, {run}, {}).reversals; }
+double reversals(const Run& run) { return fit(Route::velocity, {run}, {}).reversals; }
 
 }  // namespace
 
@@ -26,7 +26,7 @@ TEST_CASE("medians of speeds turn back too rarely, white speeds do not", "[many]
   for (const PowerLaw law : {rubber, felt}) {
     int white = 0, medians = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
-      FitRun run = speeds(law, seed);
+      Run run = speeds(law, seed);
       white += reversals(run) <= levels::few_reversals;
       run.v = medians_of_five(run.v);
       medians += reversals(run) <= levels::few_reversals;
@@ -38,11 +38,11 @@ TEST_CASE("medians of speeds turn back too rarely, white speeds do not", "[many]
 }
 
 TEST_CASE("reversals depend not on the direction of motion, and add up over runs") {
-  FitRun run = speeds(rubber, 3);
+  Run run = speeds(rubber, 3);
   run.v = medians_of_five(run.v);
   const double p = reversals(run);
   CHECK(p < levels::few_reversals);
-  FitRun back = run;
+  Run back = run;
   for (double& v : back.v) v = -v;
   CHECK(reversals(back) == Approx(p).epsilon(1e-6));
   CHECK(fit(Route::velocity, {run, back}, {}).reversals < p);
@@ -51,7 +51,7 @@ TEST_CASE("reversals depend not on the direction of motion, and add up over runs
 TEST_CASE("positions, which move by many times their noise, have no reversals to miss") {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     simulated::Noise noise(seed);
-    const FitRun run = roll(seed % 2 ? rubber : felt, 0, 1, noise);
+    const Run run = roll(seed % 2 ? rubber : felt, 0, 1, noise);
     CHECK(fit(Route::position, {run}, {}).reversals > levels::few_reversals);
   }
 }

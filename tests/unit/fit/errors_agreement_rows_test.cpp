@@ -100,7 +100,7 @@ TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
     simulated::Noise noise(12);
     double off = 0;
     for (int set = 0; set < 10; ++set) {
-      std::vector<FitRun> runs;
+      std::vector<Run> runs;
       std::vector<OwnLaw> rows;
       for (int i = 0; i < 5; ++i) {
         runs.push_back(roll({rubber.a * (1 + noise(scatter)), rubber.b}, 0, 1, noise));

@@ -11,7 +11,7 @@ using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
 TEST_CASE("agreement: a mat that is 1 mm a metre off level shows in two directions", "[fit]") {
   simulated::Noise noise(32);
   for (int k = 0; k < 20; ++k) {
-    const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, -1, noise)};
+    const std::vector<Run> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, -1, noise)};
     const auto r = fit(Route::position, runs, {});
     REQUIRE(r.agreement);
     CHECK_FALSE(r.agreement->agree());
@@ -36,7 +36,7 @@ TEST_CASE("agreement: a run with as many rows as parameters shows no noise", "[f
   simulated::Noise noise(46);
   FitOptions options;
   options.fit_slope = true;
-  std::vector<FitRun> runs{roll({0.8 * rubber.a, rubber.b}, 1e-3, 1, noise),
+  std::vector<Run> runs{roll({0.8 * rubber.a, rubber.b}, 1e-3, 1, noise),
                            roll(rubber, 1e-3, -1, noise)};
   const auto two = fit(Route::position, runs, options);
   runs.push_back(roll(rubber, 1e-3, 1, noise));
@@ -53,7 +53,7 @@ TEST_CASE("agreement: runs of which only the common slope is unknown have no law
   FitOptions options;
   options.a = felt.a, options.b = felt.b, options.v0 = 0.5, options.x0 = 0,
   options.fit_slope = true;
-  const std::vector<FitRun> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
+  const std::vector<Run> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
   const auto r = fit(Route::position, runs, options);
   CHECK_FALSE(r.agreement);
   CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
@@ -67,7 +67,7 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
   options.fit_slope = true;
   int a = 0, b = 0, told = 0;
   for (int k = 0; k < 80; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (const double way : {1, 1, 1, 1, 1, 1, 1, -1})
       runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
     const auto r = fit(Route::position, runs, options);
@@ -91,7 +91,7 @@ TEST_CASE("agreement: the exponents of the runs are those at the slope that is f
   simulated::Noise noise(42);
   FitOptions options;
   options.fit_slope = true;
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const auto& [by, way] : {std::pair(0.98, 1), {1.01, 1}, {1.03, 1}, {1.02, -1}})
     runs.push_back(roll({by * rubber.a, rubber.b}, 1e-3, way, noise, 1e-6));
   const auto r = fit(Route::position, runs, options);
@@ -109,7 +109,7 @@ TEST_CASE("agreement: the error of the slope where b is held, by hand", "[fit]")
   FitOptions options;
   options.fit_slope = true;
   options.b = 0.5;
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const auto& [by, way] : {std::pair(-0.05, 1), {0.05, 1}, {-0.03, -1}, {0.03, -1}})
     runs.push_back(roll({rubber.a * std::exp(by), 0.5}, 0, way, noise, 1e-5));
   const auto r = fit(Route::position, runs, options);
@@ -128,7 +128,7 @@ TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope
   FitOptions options;
   options.fit_slope = true;
   for (int k = 0; k < 5; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (int i = 0; i < 4; ++i)
       runs.push_back(roll({rubber.a * (1 + noise(0.01)), rubber.b}, 1e-3, 1, noise, 1e-4));
     try {
@@ -149,12 +149,12 @@ TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted",
   constexpr double slope = 1e-3;
   int held = 0, near = 0;
   for (int k = 0; k < 40; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (const double way : {1, -1, 1, -1})
       runs.push_back(roll({rubber.a * (1 + noise(0.03)), rubber.b}, slope, way, noise));
     const FitResult four = fit(Route::position, runs, options);
     for (const double way : {1, -1}) {
-      FitRun& run = runs.emplace_back();
+      Run& run = runs.emplace_back();
       run.body = cylinder;
       Body seen = cylinder;
       seen.slope = way * slope;

@@ -13,11 +13,11 @@ using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
 namespace {
 
 /// So many rolls on felt of six rows each, 0.8 s apart.
-std::vector<FitRun> short_rolls(int count, simulated::Noise& noise) {
-  std::vector<FitRun> runs;
+std::vector<Run> short_rolls(int count, simulated::Noise& noise) {
+  std::vector<Run> runs;
   for (int k = 0; k < count; ++k) {
-    const FitRun all = roll(felt, 0, 1, noise);
-    FitRun& run = runs.emplace_back();
+    const Run all = roll(felt, 0, 1, noise);
+    Run& run = runs.emplace_back();
     run.body = all.body;
     for (std::size_t i = 0; i < 120; i += 20) run.t.push_back(all.t[i]), run.x.push_back(all.x[i]);
   }
@@ -46,9 +46,9 @@ double least(const std::function<double(double, double)>& sum, double log_D, dou
 TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
   const double means[] = {5, 5.3, 4.6, 5.5};
   const double off[] = {-0.1, 0.05, 0.1, -0.05, 0, 0.02, -0.02};  // sum 0, squares 0.0258
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (double mean : means) {
-    FitRun& run = runs.emplace_back();
+    Run& run = runs.emplace_back();
     for (double d : off) run.v.push_back(1 + std::abs(d)), run.D.push_back(mean + d);
   }
   FitOptions options;
@@ -127,9 +127,9 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
   constexpr std::size_t count = 4, m = 12;
   constexpr double n = count * m, mean_t = 0.05 * (m - 1) / 2;
   simulated::Noise noise(41);
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const double a : {5e-4, 6e-4, 7e-4, 8e-4}) {
-    FitRun& run = runs.emplace_back();
+    Run& run = runs.emplace_back();
     run.body = cylinder;
     for (std::size_t i = 0; i < m; ++i) {
       run.t.push_back(0.05 * static_cast<double>(i));
@@ -181,7 +181,7 @@ TEST_CASE("agreement: the chance is that of the law with which the runs agree be
     // The mean of c ln(1 + d/freedom) is the number of parameters.
     const double freedom = options.b ? 3 : 2, c = options.b ? 1 / (2 * std::log(2.0) - 1) : 2;
     std::vector<FitResult> own;
-    for (const FitRun& run : runs) own.push_back(fit(Route::position, {run}, options));
+    for (const Run& run : runs) own.push_back(fit(Route::position, {run}, options));
     const auto sum = [&](double log_D, double b) {
       double all = 0;
       for (const FitResult& r : own) {
@@ -220,7 +220,7 @@ TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fi
     simulated::Noise noise(33);
     int a = 0, b = 0, told = 0;
     for (int k = 0; k < 200; ++k) {
-      std::vector<FitRun> runs;
+      std::vector<Run> runs;
       for (int i = 0; i < count; ++i)
         runs.push_back(roll({law.a * (1 + noise(0.02)), law.b}, 0, 1, noise));
       const auto r = fit(Route::position, runs, {});
@@ -243,7 +243,7 @@ TEST_CASE("agreement: the errors allow for scatter of runs that are not equally 
   simulated::Noise noise(38);
   int a = 0, b = 0;
   for (int k = 0; k < 200; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (const double size : {3e-4, 15e-4, 15e-4, 15e-4})
       runs.push_back(roll({rubber.a * (1 + noise(0.02)), rubber.b}, 0, 1, noise, size));
     const auto r = fit(Route::position, runs, {});
@@ -262,14 +262,14 @@ TEST_CASE("agreement: where runs disagree, the law and its errors do not depend 
           "[fit]") {
   simulated::Noise noise(43);
   for (int k = 0; k < 10; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (const double size : {1e-4, 1e-3, 3e-3, 1e-4})
       runs.push_back(roll({rubber.a * (1 + noise(0.05)), rubber.b}, 0, 1, noise, size));
     const auto r = fit(Route::position, runs, {});
     REQUIRE_FALSE(r.agreement->agree());
     for (const auto& [length, time] : {std::pair(20.0, 1.0), {1e3, 1e3}, {0.03, 10.0}}) {
-      std::vector<FitRun> same = runs;
-      for (FitRun& run : same) {
+      std::vector<Run> same = runs;
+      for (Run& run : same) {
         run.body.R *= length, run.body.g *= length / (time * time);
         for (double& x : run.x) x *= length;
         for (double& t : run.t) t *= time;
@@ -290,7 +290,7 @@ TEST_CASE("agreement: where runs disagree, the law and its errors do not depend 
 // What a run cannot tell by itself, it does not tell of agreement either.
 TEST_CASE("agreement: a run of two rows has no say", "[fit]") {
   simulated::Noise noise(34);
-  std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll(rubber, 0, 1, noise)};
+  std::vector<Run> runs{roll(rubber, 0, 1, noise), roll(rubber, 0, 1, noise)};
   for (auto* column : {&runs[1].t, &runs[1].x}) column->resize(2);
   CHECK_FALSE(fit(Route::position, runs, {}).agreement);
   CHECK_FALSE(fit(Route::position, {runs[0]}, {}).agreement);
@@ -305,7 +305,7 @@ TEST_CASE("agreement: where runs disagree, a and b are correlated as they scatte
           "[fit]") {
   // b falls where a grows; the noise of one run would correlate them the other way round.
   simulated::Noise noise(35);
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const double by : {-0.1, 0.1, -0.06, 0.06})
     runs.push_back(roll({rubber.a * std::exp(by), rubber.b - 0.3 * by}, 0, 1, noise));
   CHECK(fit(Route::position, {runs[0]}, {}).corr > 0.5);
@@ -321,7 +321,7 @@ TEST_CASE("agreement: runs that disagree are told where slow rows are left out",
   simulated::Noise noise(37);
   FitOptions options;
   options.min_speed = 0.1;
-  const std::vector<FitRun> runs{roll(rubber, 0, 1, noise), roll({2.4e-3, 0.215}, 0, 1, noise)};
+  const std::vector<Run> runs{roll(rubber, 0, 1, noise), roll({2.4e-3, 0.215}, 0, 1, noise)};
   const auto r = fit(Route::position, runs, options);
   REQUIRE(r.agreement);
   CHECK_FALSE(r.agreement->agree());
@@ -331,9 +331,9 @@ TEST_CASE("agreement: runs that disagree are told where slow rows are left out",
 // The noise of the logarithms is that of a roll, which each run has by itself too.
 TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
   simulated::Noise noise(40);
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const double by : {0.8, 1.2, 1.0}) {
-    const FitRun raw = roll({by * felt.a, felt.b}, 0, 1, noise, 1e-5);
+    const Run raw = roll({by * felt.a, felt.b}, 0, 1, noise, 1e-5);
     runs.push_back(simulated::shifts(cylinder, raw.t, raw.x, 9, "x"));
     runs.back().body = cylinder;
   }
@@ -355,7 +355,7 @@ TEST_CASE("agreement: the exponents of runs where a is held", "[fit]") {
   simulated::Noise noise(42);
   FitOptions options;
   options.a = rubber.a;
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   double mean = 0, squares = 0;
   std::vector<double> own;
   for (const double b : {0.2, 0.22, 0.23, 0.21}) {

@@ -19,10 +19,10 @@ double share(const FitResult& r, const std::string& of, std::size_t coefficient)
 }
 
 /// A noisy roll on rubber as positions or speeds, or as shifts whose filters are known.
-FitRun made_run(Route route, unsigned seed) {
+Run made_run(Route route, unsigned seed) {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(seed);
-  FitRun run{};
+  Run run{};
   for (int i = 0; i < 60; ++i) {
     run.t.push_back(0.04 * i);
     run.v.push_back(truth.v(0.04 * i) + noise(2e-3));
@@ -41,7 +41,7 @@ FitRun made_run(Route route, unsigned seed) {
 TEST_CASE("input quantities: ln a moves by dK/(1 + K), dR/R and dg/g, b does not", "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
     for (bool filters_known : {true, false}) {
-      FitRun run = made_run(route, 3);
+      Run run = made_run(route, 3);
       if (!filters_known) run.filters.clear();
       const auto r = fit(route, {run}, {});
       run.body = cylinder;
@@ -67,7 +67,7 @@ TEST_CASE("input quantities: ln a moves by dK/(1 + K), dR/R and dg/g, b does not
 TEST_CASE("input quantities: on a level mat the shares are those of fits with other numbers",
           "[fit]") {
   for (Route route : {Route::loglog, Route::shift, Route::velocity, Route::position}) {
-    FitRun run = made_run(route, 3);
+    Run run = made_run(route, 3);
     const auto level = fit(route, {run}, {});
     // A slope that changes nothing, but lets the numbers be moved and the rows fitted again.
     run.body.slope = 1e-12;
@@ -85,8 +85,8 @@ TEST_CASE("input quantities: on a level mat the shares are those of fits with ot
 }
 
 TEST_CASE("input quantities: runs of one body move together, those of two apart", "[fit]") {
-  std::vector<FitRun> runs{made_run(Route::position, 3), made_run(Route::position, 4)};
-  for (FitRun& run : runs) run.body = cylinder, run.body.sigma_K = 0.005;
+  std::vector<Run> runs{made_run(Route::position, 3), made_run(Route::position, 4)};
+  for (Run& run : runs) run.body = cylinder, run.body.sigma_K = 0.005;
   const auto one = fit(Route::position, runs, {});
   REQUIRE(one.shares.size() == 2);
   CHECK(std::abs(share(one, "K", 0) / one.a / (0.005 / 1.5) - 1) < 1e-3);
@@ -104,9 +104,9 @@ TEST_CASE("input quantities: runs of one body move together, those of two apart"
 // their noise have equal weights. K of half of them moves ln a of each by dK/(1 + K), and no b.
 TEST_CASE("input quantities: where runs disagree their shares are those of the mean", "[fit]") {
   simulated::Noise noise(46);
-  std::vector<FitRun> runs;
+  std::vector<Run> runs;
   for (const auto& [by, K] : {std::pair(0.95, 0.5), {1.07, 0.5}, {0.92, 0.83}, {1.04, 0.83}}) {
-    FitRun& run = runs.emplace_back();
+    Run& run = runs.emplace_back();
     run.body = cylinder;
     run.body.K = K;
     run.body.sigma_K = K == 0.5 ? 0.0 : 0.05;

@@ -10,7 +10,7 @@ using namespace rolling;
 // sum of squares of the rows of each group over its square: HC3 of means is known by hand.
 TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n - 1)^2", "[fit]") {
   simulated::Noise noise(9);
-  FitRun run{};
+  Run run{};
   double sum = 0;
   constexpr int n = 60;
   for (int i = 0; i < n; ++i) {
@@ -30,11 +30,11 @@ TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n -
 
 TEST_CASE("errors: two runs of different noise have the errors of both", "[fit]") {
   simulated::Noise noise(10);
-  std::vector<FitRun> runs(2);
+  std::vector<Run> runs(2);
   double sum = 0, squares = 0;
   constexpr int n = 120;
   for (int i = 0; i < n; ++i) {
-    FitRun& run = runs[static_cast<std::size_t>(i % 2)];
+    Run& run = runs[static_cast<std::size_t>(i % 2)];
     run.v.push_back(1);
     run.D.push_back(5 + noise(i % 2 ? 0.3 : 0.1));
     sum += run.D.back();
@@ -43,7 +43,7 @@ TEST_CASE("errors: two runs of different noise have the errors of both", "[fit]"
   options.b = 0;
   const auto r = fit(Route::shift, runs, options);
   REQUIRE(r.errors == Errors::uneven);
-  for (const FitRun& run : runs)
+  for (const Run& run : runs)
     for (double D : run.D) squares += (D - sum / n) * (D - sum / n);
   CHECK(std::abs(r.sigma_a / (std::sqrt(squares) / (n - 1)) - 1) < 1e-10);
 }
@@ -57,9 +57,9 @@ TEST_CASE("errors: the residuals of many short runs are as white as their noise"
   int not_white_by_x = 0, not_white_by_D = 0, twentieth = 0;
   constexpr int fits = 100;
   for (int k = 0; k < fits; ++k) {
-    std::vector<FitRun> runs, shifts;
+    std::vector<Run> runs, shifts;
     for (int r = 0; r < 10; ++r) {
-      FitRun run{};
+      Run run{};
       run.body = cylinder;
       for (int i = 0; i < 12; ++i) {
         run.t.push_back(0.19 * i);
@@ -82,8 +82,8 @@ namespace {
 
 /// Speeds from positions, by filters that are known, with white noise of their own that is ten
 /// times what the filters leave of the noise of the positions.
-FitRun rounded_speeds(double a, simulated::Noise& noise) {
-  FitRun run{};
+Run rounded_speeds(double a, simulated::Noise& noise) {
+  Run run{};
   run.body = {1.375, 0.04, 0.5};
   const auto truth = simulated::roll(run.body, a, 0.215, 0.5);
   for (int i = 0; i < 60; ++i) {
@@ -117,7 +117,7 @@ TEST_CASE("errors: runs with white noise beside that of the filters are compared
   simulated::Noise noise(13);
   int like = 0, unlike = 0;
   for (int k = 0; k < 50; ++k) {
-    const FitRun one = rounded_speeds(1.87e-3, noise), same = rounded_speeds(1.87e-3, noise),
+    const Run one = rounded_speeds(1.87e-3, noise), same = rounded_speeds(1.87e-3, noise),
                  other = rounded_speeds(2.06e-3, noise);
     const auto alike = fit(Route::velocity, {one, same}, {}).agreement,
                apart = fit(Route::velocity, {one, other}, {}).agreement;
@@ -135,7 +135,7 @@ TEST_CASE("errors: there are none where filters leave as many numbers as paramet
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   for (const int order : {3, 4}) {
     simulated::Noise noise(14);
-    FitRun run{};
+    Run run{};
     run.body = body;
     for (int i = 0; i < 12; ++i) {
       run.t.push_back(0.15 * i);
@@ -159,9 +159,9 @@ TEST_CASE("errors: many short runs of one noise are not said to have several", "
   simulated::Noise noise(15);
   int uneven = 0;
   for (int k = 0; k < 20; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (int r = 0; r < 150; ++r) {
-      FitRun& run = runs.emplace_back();
+      Run& run = runs.emplace_back();
       run.body = body;
       const int n = r % 2 ? 8 : 20;
       for (int i = 0; i < n; ++i) {

@@ -20,8 +20,8 @@ constexpr std::size_t number[] = {0, 1, 2, 4};  // of these in laws()
 
 /// Rolls to the stop under D = 0.2 sqrt(v); 0.1; 0.1 + 0.2 v; 0.1 + 0.4 v^2, all from v0 = 1, by
 /// hand.
-FitRun roll(Made law, Route route, double size) {
-  FitRun run{};
+Run roll(Made law, Route route, double size) {
+  Run run{};
   run.body = unit;
   simulated::Noise noise(31);
   for (double t = 0; t < 12; t += 0.05) {
@@ -59,14 +59,14 @@ TEST_CASE("laws: the intervals of another law that is fitted hold it, whichever 
   for (const Route route : {Route::velocity, Route::position}) {
     FitOptions options;
     options.law = &laws()[number[quadratic]];
-    const FitRun clean = roll(quadratic, route, 0);
+    const Run clean = roll(quadratic, route, 0);
     simulated::Noise noise(7);
     const std::vector<double> truth{0.1, 0.4};
     std::vector<int> held(2);
     double corr = 0;
     constexpr int runs = 120;
     for (int i = 0; i < runs; ++i) {
-      FitRun run = clean;
+      Run run = clean;
       for (double& x : route == Route::velocity ? run.v : run.x) x += noise(1e-3);
       const FitResult r = fit(route, {run}, options);
       REQUIRE(r.coefficients.size() == 2);
@@ -87,11 +87,11 @@ TEST_CASE("laws: the intervals of another law that is fitted hold it, whichever 
 TEST_CASE("laws: a joint fit of another law is the mean of runs that agree", "[fit]") {
   FitOptions options;
   options.law = &laws()[number[quadratic]];
-  const FitRun clean = roll(quadratic, Route::position, 0);
+  const Run clean = roll(quadratic, Route::position, 0);
   simulated::Noise noise(8);
-  std::vector<FitRun> runs(3, clean);
+  std::vector<Run> runs(3, clean);
   double mean = 0, sigma = 0;
-  for (FitRun& run : runs) {
+  for (Run& run : runs) {
     for (double& x : run.x) x += noise(1e-3);
     const FitResult own = fit(Route::position, {run}, options);
     mean += own.coefficients[1].value / 3, sigma += own.coefficients[1].sigma / 3;
@@ -142,7 +142,7 @@ TEST_CASE("laws: on every route the law that made the row is not beaten, and les
 }
 
 TEST_CASE("laws: coefficients are those of linear least squares, with its errors", "[fit]") {
-  FitRun run{};
+  Run run{};
   simulated::Noise noise(8);
   for (int i = 1; i <= 25; ++i)
     run.v.push_back(0.2 * i), run.D.push_back(1 + 0.5 * run.v.back() + noise(0.05));
@@ -165,7 +165,7 @@ TEST_CASE("laws: coefficients are those of linear least squares, with its errors
 
 TEST_CASE("laws: the row's a and b are those of the comparison; a slope is fitted for every law",
           "[fit]") {
-  FitRun there = roll(linear, Route::position, 1e-4), back = there;
+  Run there = roll(linear, Route::position, 1e-4), back = there;
   for (double& x : back.x) x = -x;
   const auto r = fit(Route::position, {there, back}, {});
   const auto same = compare_laws(Route::position, {there, back}, {}).fits[0];
@@ -181,7 +181,7 @@ TEST_CASE("laws: the row's a and b are those of the comparison; a slope is fitte
 }
 
 TEST_CASE("laws: a law that the rows cannot determine is not among those that win", "[fit]") {
-  FitRun run{};
+  Run run{};
   run.body = unit;
   simulated::Noise noise(3);
   for (int i = 0; i < 20; ++i)
@@ -194,7 +194,7 @@ TEST_CASE("laws: a law that the rows cannot determine is not among those that wi
 }
 
 TEST_CASE("laws: what is held stays held, and a robust comparison is refused", "[fit]") {
-  FitRun run = roll(linear, Route::velocity, 1e-3);
+  Run run = roll(linear, Route::velocity, 1e-3);
   FitOptions options;
   options.v0 = 0.7;  // a wrong one: no law can mend it
   const auto held = compare_laws(Route::velocity, {run}, options),
@@ -211,7 +211,7 @@ TEST_CASE("laws: rows with correlated noise count as the fewer that they are", "
   int wrong = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
     simulated::Noise noise(seed);
-    FitRun run{};
+    Run run{};
     double e = 0;
     for (int i = 0; i < 400; ++i) {
       e = 0.8 * e + noise(0.002);
@@ -229,7 +229,7 @@ TEST_CASE("laws: of many rows, which are compared by their means, all count", "[
   // being orthogonal to 1 and u.
   constexpr int half = 10000;
   constexpr double h = 5e-4;
-  FitRun run{};
+  Run run{};
   run.body = unit;
   simulated::Noise noise(17);
   double mean = 0, along = 0, squares = 0, rss = 0;
@@ -263,7 +263,7 @@ TEST_CASE("laws: of many rows, which are compared by their means, all count", "[
 TEST_CASE("laws: through known filters the coefficients are as precise as those of the positions",
           "[fit]") {
   for (Made law : {linear, quadratic}) {
-    FitRun raw = roll(law, Route::position, 1e-3),
+    Run raw = roll(law, Route::position, 1e-3),
            filtered = simulated::shifts(unit, raw.t, raw.x, 5, "x");
     filtered.body = unit;
     const LawFit by_x = compare_laws(Route::position, {raw}, {}).fits[number[law]],
@@ -288,7 +288,7 @@ TEST_CASE("laws: singular noise gives no negative variance, and no correlation a
     const auto truth = simulated::roll(body, 1e-3, 0.2, 0.3 + 0.01 * seed);
     const double time = std::pow(truth.v0, 0.8) / (0.8 * truth.a * truth.c);
     simulated::Noise noise(seed);
-    FitRun run{};
+    Run run{};
     run.body = body;
     for (std::size_t i = 0; i < n; ++i) {
       run.t.push_back((0.5 + 0.02 * seed) * time * static_cast<double>(i) / (n - 1));

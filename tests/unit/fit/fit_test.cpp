@@ -11,7 +11,7 @@ TEST_CASE("fit: correlated residuals are noticed, and the errors grow", "[fit]")
   double variances = 0, squares = 0;
   constexpr int runs = 200;
   for (int k = 0; k < runs; ++k) {
-    FitRun run{};
+    Run run{};
     double error = noise(0.1);
     for (int i = 0; i < 200; ++i) {
       const double v = 0.1 + 0.005 * i;
@@ -36,7 +36,7 @@ TEST_CASE("fit: the errors allow for a correlation that is not sure enough for a
   simulated::Noise noise(6);
   int silent = 0, covered = 0;
   for (int k = 0; k < 1000; ++k) {
-    FitRun run{};
+    Run run{};
     double error = noise(0.115);
     for (int i = 0; i < 60; ++i) {
       const double v = 0.1 + 0.015 * i;
@@ -54,7 +54,7 @@ TEST_CASE("fit: the errors allow for a correlation that is not sure enough for a
 }
 
 TEST_CASE("fit: fewer than 30 rows have classical errors, whatever their residuals", "[fit]") {
-  FitRun run{};
+  Run run{};
   for (int i = 1; i < 30; ++i)
     run.v.push_back(i), run.D.push_back(i + (i < 10 || i > 20 ? 0.5 : -0.5));
   CHECK(fit(Route::shift, {run}, {}).errors == Errors::classical);
@@ -72,7 +72,7 @@ TEST_CASE("fit: known filters of a noise that is not white have the errors of th
   simulated::Noise noise(8);
   int noticed = 0, covered = 0;
   for (int k = 0; k < 100; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = body;
     double error = noise(0.005);
     for (int i = 0; i < 220; ++i) {
@@ -100,7 +100,7 @@ TEST_CASE("fit: correlated noise gives positions and their known differences the
   double ratios = 0;
   constexpr int runs = 50;
   for (int k = 0; k < runs; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = body;
     double error = noise(3e-4);
     for (int i = 0; i < 60; ++i) {

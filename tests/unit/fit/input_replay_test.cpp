@@ -23,8 +23,8 @@ const FilterChain chain = {differentiate(Quantity::x, Quantity::v),
                            {Quantity::a, Quantity::D, 0, [](auto, auto y) { return Series(y.begin(), y.end()); }}};
 
 /// Noisy positions, and the columns that the chain makes of them.
-FitRun filtered(int seed, std::size_t n = 60) {
-  FitRun run{};
+Run filtered(int seed, std::size_t n = 60) {
+  Run run{};
   run.shift_of = ShiftOf{.body = {1, 0.04, 0.5}};
   simulated::Noise noise(static_cast<unsigned>(seed));
   run.t = simulated::times(n);
@@ -35,28 +35,28 @@ FitRun filtered(int seed, std::size_t n = 60) {
 }
 
 /// Every k-th row.
-FitRun thinned(const FitRun& run, std::size_t k) {
-  FitRun few{};
+Run thinned(const Run& run, std::size_t k) {
+  Run few{};
   few.shift_of = run.shift_of;
-  for (auto column : {&FitRun::t, &FitRun::x, &FitRun::v, &FitRun::D})
+  for (auto column : {&Run::t, &Run::x, &Run::v, &Run::D})
     for (std::size_t i = 0; i < run.t.size(); i += k) (few.*column).push_back((run.*column)[i]);
   return few;
 }
 
 /// The rows from `first` to before `end`.
-FitRun part(const FitRun& run, std::ptrdiff_t first, std::ptrdiff_t end) {
-  FitRun some{};
+Run part(const Run& run, std::ptrdiff_t first, std::ptrdiff_t end) {
+  Run some{};
   some.shift_of = run.shift_of;
-  for (auto column : {&FitRun::t, &FitRun::x, &FitRun::v, &FitRun::D})
+  for (auto column : {&Run::t, &Run::x, &Run::v, &Run::D})
     (some.*column).assign((run.*column).begin() + first, (run.*column).begin() + end);
   return some;
 }
 
 /// A row between each two, by linear interpolation.
-FitRun interpolated(const FitRun& run) {
-  FitRun more{};
+Run interpolated(const Run& run) {
+  Run more{};
   more.shift_of = run.shift_of;
-  for (auto column : {&FitRun::t, &FitRun::x, &FitRun::v, &FitRun::D})
+  for (auto column : {&Run::t, &Run::x, &Run::v, &Run::D})
     for (std::size_t i = 0; i + 1 < run.t.size(); ++i) {
       const double here = (run.*column)[i], next = (run.*column)[i + 1];
       (more.*column).insert((more.*column).end(), {here, (here + next) / 2});
@@ -64,20 +64,20 @@ FitRun interpolated(const FitRun& run) {
   return more;
 }
 
-bool differs(const FitRun& run) { return mismatch(chain, run).inside; }
+bool differs(const Run& run) { return mismatch(chain, run).inside; }
 
 }  // namespace
 
 TEST_CASE("replay: columns that the filters made are the same, rounded or not", "[fit]") {
   for (int seed = 1; seed <= 20; ++seed) {
-    const FitRun run = filtered(seed);
+    const Run run = filtered(seed);
     const Mismatch none = mismatch(chain, run);
     CHECK(!none.inside);
     CHECK(!none.begin);
     CHECK(!none.end);
     for (const int digits : {3, 4, 6}) {
-      FitRun rounded = run;
-      for (auto column : {&FitRun::v, &FitRun::D})
+      Run rounded = run;
+      for (auto column : {&Run::v, &Run::D})
         for (double& y : rounded.*column) y = std::stod(fmt::format("{:.{}g}", y, digits));
       INFO("seed " << seed << ", " << digits << " digits");
       // Of three digits of the speeds, differences keep less than the noise has.
@@ -91,10 +91,10 @@ TEST_CASE("replay: columns that the filters made are the same, rounded or not", 
 TEST_CASE("replay: columns that something else has made differ, each stage of them", "[fit]") {
   for (int seed = 1; seed <= 20; ++seed) {
     INFO("seed " << seed);
-    const FitRun run = filtered(seed);
+    const Run run = filtered(seed);
     for (const std::size_t k : {2U, 3U}) CHECK(differs(thinned(run, k)));
     CHECK(differs(interpolated(run)));
-    FitRun v = run, D = run, speeds_alone = run;
+    Run v = run, D = run, speeds_alone = run;
     v.v = smooth_v(7).apply(run.t, chain[0].apply(run.t, run.x));  // not 5
     CHECK(differs(v));
     v.D = run.D, v.D.clear();
@@ -115,8 +115,8 @@ TEST_CASE("replay: columns that something else has made differ, each stage of th
 
 TEST_CASE("replay: a missing reading hides its windows alone", "[fit]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (auto column : {&FitRun::x, &FitRun::v, &FitRun::D}) {
-    FitRun run = filtered(1);
+  for (auto column : {&Run::x, &Run::v, &Run::D}) {
+    Run run = filtered(1);
     (run.*column)[20] = nan;
     const Mismatch none = mismatch(chain, run);
     CHECK(!none.inside);
@@ -129,10 +129,10 @@ TEST_CASE("replay: a missing reading hides its windows alone", "[fit]") {
 
 TEST_CASE("replay: rows that were cut off differ at that end alone", "[fit]") {
   for (int seed = 1; seed <= 20; ++seed) {
-    const FitRun run = filtered(seed);
+    const Run run = filtered(seed);
     for (const auto& [first, end] : {std::pair(4, 60), {0, 55}, {9, 50}}) {
       INFO("seed " << seed << ", " << first << " to " << end);
-      FitRun some = part(run, first, end);
+      Run some = part(run, first, end);
       const Mismatch found = mismatch(chain, some);
       CHECK(!found.inside);
       CHECK(found.begin == (first > 0));

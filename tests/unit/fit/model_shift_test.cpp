@@ -13,7 +13,7 @@ namespace {
 
 // NIST StRD DanWood (Daniel & Wood 1980): y = b1 x^b2. The expected values agree with the 11 digits
 // that NIST certifies, and were computed with 25.
-FitRun danwood() {
+Run danwood() {
   return {.t = {},
           .x = {},
           .v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680},
@@ -46,7 +46,7 @@ TEST_CASE("shift: DanWood to 12 digits", "[fit]") {
 TEST_CASE("shift: no exponent that is held fits better than the one that is found", "[fit]") {
   simulated::Noise noise(45);
   for (int k = 0; k < 40; ++k) {
-    FitRun run{};
+    Run run{};
     run.v = {1e-4}, run.D = {7e-4 * (1 + noise(0.2))};
     for (const double v : {0.044, 0.065, 0.04, 0.46, 0.58, 0.1, 0.23, 0.27, 0.48, 0.22}) {
       run.v.push_back(v);
@@ -65,7 +65,7 @@ TEST_CASE("shift: no exponent that is held fits better than the one that is foun
 TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units scales a",
           "[fit]") {
   const auto one = fit(Route::shift, {danwood()}, {});
-  FitRun scaled = danwood();
+  Run scaled = danwood();
   for (double& v : scaled.v) v *= 1000;
   for (double& D : scaled.D) D *= 1e-6;
   const auto r = fit(Route::shift, {scaled}, {});
@@ -75,7 +75,7 @@ TEST_CASE("shift: against c v, a is divided by c^b and b stays; D in other units
 }
 
 TEST_CASE("shift: exact data give the law back, with errors of rounding size", "[fit]") {
-  FitRun run{};
+  Run run{};
   for (double v : {0.1, 0.2, 0.3, 0.5, 0.8})
     run.v.push_back(v), run.D.push_back(1.87e-3 * std::pow(v, 0.215));
   const auto r = fit(Route::shift, {run}, {});
@@ -88,7 +88,7 @@ TEST_CASE(
     "shift: one of a and b held; rows at v <= 0 and below --min-speed are counted, D <= 0 is "
     "not left out",
     "[fit]") {
-  FitRun run{};
+  Run run{};
   for (double v : {-0.1, 0.0, 0.01, 0.2, 0.4, 0.8}) run.v.push_back(v), run.D.push_back(2 * v * v);
   run.D[4] = -0.1;
   FitOptions options;
@@ -113,7 +113,7 @@ TEST_CASE(
 TEST_CASE("shift: a held, the gradient by b vanishes", "[fit]") {
   FitOptions options;
   options.a = 0.75;
-  const FitRun run = danwood();
+  const Run run = danwood();
   const double b = fit(Route::shift, {run}, options).b;
   double gradient = 0;
   for (std::size_t i = 0; i < run.v.size(); ++i) {
@@ -125,7 +125,7 @@ TEST_CASE("shift: a held, the gradient by b vanishes", "[fit]") {
 
 TEST_CASE("shift: two points have a law but no errors; what cannot be determined is refused",
           "[fit]") {
-  FitRun run{};
+  Run run{};
   run.v = {1, 4};
   run.D = {3, 6};
   const auto r = fit(Route::shift, {run}, {});
@@ -171,7 +171,7 @@ TEST_CASE(
         raw.push_back(position ? truth.x(t.back()) + noise(3e-4)
                                : truth.v(t.back()) + noise(0.0053));
       }
-      FitRun as_recorded{};
+      Run as_recorded{};
       as_recorded.body = body;
       as_recorded.t = t;
       (position ? as_recorded.x : as_recorded.v) = raw;
@@ -198,7 +198,7 @@ TEST_CASE("shift: as precise as the positions at any rate of the rows", "[fit]")
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   for (const double rate : {25., 1000., 4000., 40000.}) {
     simulated::Noise noise(8);
-    FitRun raw{};
+    Run raw{};
     raw.body = body;
     for (int i = 0; i < 2.2 * rate; ++i) {
       raw.t.push_back(i / rate);
@@ -219,7 +219,7 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   std::mt19937 random(1);
   for (const std::size_t width : {5u, 31u}) {
-    FitRun run{};
+    Run run{};
     run.shift_of = ShiftOf{body};
     std::vector<double> x;
     for (int i = 0; i < 58; ++i) {
@@ -255,7 +255,7 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
 TEST_CASE("shift: made by the exact root of Eq. 9, it gives the law of an exact roll", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
   Roll roll(body, Geometry::exact, PowerLaw{1.2e-2, 0.3}, 0.5);  // D/R = 0.24 at first
-  FitRun run{};
+  Run run{};
   run.shift_of = ShiftOf{body, Geometry::exact};
   for (int i = 0; i < 80; ++i) {
     run.t.push_back(0.005 * i);
@@ -277,7 +277,7 @@ TEST_CASE("shift: towards the sensor v and D are negative and the law is the sam
   for (const bool known : {false, true}) {
     std::vector<double> t, v;
     for (int i = 0; i < 55; ++i) t.push_back(0.04 * i), v.push_back(truth.v(0.04 * i));
-    FitRun run = simulated::shifts(body, t, v, 1);
+    Run run = simulated::shifts(body, t, v, 1);
     if (!known) run.filters.clear();
     const auto away = fit(Route::shift, {run}, {});
     for (double& x : run.v) x = -x;
@@ -311,7 +311,7 @@ TEST_CASE(
     "worth nothing",
     "[fit]") {
   simulated::Noise noise(12);
-  FitRun run{};
+  Run run{};
   for (int i = 0; i < 20000; ++i) {
     run.v.push_back(0.02 + 0.5 * i / 20000);
     run.D.push_back(2e-3 * std::pow(run.v.back(), 0.3) + noise(1e-4));

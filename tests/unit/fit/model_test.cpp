@@ -19,8 +19,8 @@ const std::vector<double> misra_t{77.6,  114.9, 141.1, 190.8, 239.9, 289.0, 332.
 const std::vector<double> misra_x{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02,
                                   44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
 
-FitRun noiseless(const Body& body, double a, double b, double v0, double until, Route route) {
-  FitRun run{};
+Run noiseless(const Body& body, double a, double b, double v0, double until, Route route) {
+  Run run{};
   run.body = body;
   const auto truth = simulated::roll(body, a, b, v0);
   for (int i = 0; 0.04 * i < until; ++i) {
@@ -50,7 +50,7 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
       {1.5, e[2], 2 * 0.0003022732444900432885183014 / std::sqrt(e[2]), 0},
       {5.0 / 3, e[3], 1.5 * 2 * 0.0002081362725632872150069176 / std::pow(std::cbrt(e[3]), 2), 0}};
   for (const auto& c : cases) {
-    FitRun run{};
+    Run run{};
     run.t = misra_t;
     run.x = misra_x;
     run.body = unit;
@@ -77,7 +77,7 @@ TEST_CASE(
     for (double b : {0.0244, 0.215, 0.9, 1.3, 2.2})
       for (double until : {1.5, 12.0})
         for (double way : {1.0, -1.0}) {
-          FitRun run = noiseless(cylinder, 1.87e-3, b, 0.5, until, route);
+          Run run = noiseless(cylinder, 1.87e-3, b, 0.5, until, route);
           for (double& v : run.v) v *= way;
           for (double& x : run.x) x *= way;
           const auto r = fit(route, {run}, {});
@@ -90,7 +90,7 @@ TEST_CASE(
 
 TEST_CASE("trajectory: one law for two bodies and two starts; held parameters stay", "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
-    const std::vector<FitRun> runs{noiseless(cylinder, 5.75e-4, 0.1, 0.5, 4, route),
+    const std::vector<Run> runs{noiseless(cylinder, 5.75e-4, 0.1, 0.5, 4, route),
                                    noiseless(shell, 5.75e-4, 0.1, 0.8, 3, route)};
     const auto r = fit(route, runs, {});
     CHECK(std::abs(r.a / 5.75e-4 - 1) < 1e-9);
@@ -114,7 +114,7 @@ TEST_CASE(
     "law",
     "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
-    FitRun run = noiseless(cylinder, 1.87e-3, 0.215, 0.5, 4, route);
+    Run run = noiseless(cylinder, 1.87e-3, 0.215, 0.5, 4, route);
     for (std::size_t i = 0; i < run.t.size(); ++i) {
       const double t = run.t[i] - 10;
       if (t < 2.36) continue;
@@ -151,7 +151,7 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
   simulated::Noise noise(6);
   int covered_a = 0, covered_S = 0;
   for (int k = 0; k < 100; ++k) {
-    std::vector<FitRun> runs(2);
+    std::vector<Run> runs(2);
     for (std::size_t r = 0; r < 2; ++r) {
       const double way = r ? -1 : 1;
       const Even roll = even(cylinder, a, way * S, 0.5);
@@ -171,11 +171,11 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
     CHECK_THROWS_AS(fit(Route::position, {runs[0]}, options), Error);
     // A slope that is known does as well as none.
     options.fit_slope = false;
-    for (FitRun& run : runs) run.body.slope = S;
+    for (Run& run : runs) run.body.slope = S;
     const auto told = fit(Route::position, runs, options);
     CHECK(std::abs(told.a - a) < 4 * told.sigma_a);
     // Nothing of a slope shows in a plain D(v).
-    FitRun plain{};
+    Run plain{};
     plain.v = {0.1, 0.2, 0.3, 0.4};
     plain.D = {1, 2, 3, 4};
     options.fit_slope = true;
@@ -190,7 +190,7 @@ TEST_CASE("trajectory: with A = 1 only g/((K + 1) R) matters, for D beyond the r
           "[fit]") {
   std::vector<FitResult> results;
   for (const double K : {0.25, 1.0}) {
-    FitRun run{};
+    Run run{};
     run.body = {1, 0.02, K};
     run.body.g = 10 * (K + 1);
     const auto truth = simulated::roll(run.body, 0.03, 0.3, 2);  // D = 0.037 m > R
@@ -202,7 +202,7 @@ TEST_CASE("trajectory: with A = 1 only g/((K + 1) R) matters, for D beyond the r
 }
 
 TEST_CASE("trajectory: no roll, no law", "[fit]") {
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   run.t = {0, 1, 2, 3, 4};
   run.v = {0, 0, 0, 0};
@@ -221,7 +221,7 @@ TEST_CASE("trajectory: no roll, no law", "[fit]") {
 TEST_CASE("velocity: differences of x with their filter known are as good as x", "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(7);
-  FitRun by_x{}, by_v{};
+  Run by_x{}, by_v{};
   for (int i = 0; i < 59; ++i)
     by_x.t.push_back(0.04 * i), by_x.x.push_back(truth.x(0.04 * i) + noise(3e-4));
   by_x.body = by_v.body = cylinder;
@@ -247,7 +247,7 @@ TEST_CASE(
     if (i % 7 != 3) t.push_back(0.03 * i), x.push_back(truth.x(t.back()));
   const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(7)};
   const auto v = chain[1].apply(t, chain[0].apply(t, x));
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   run.t.assign(t.begin() + 10, t.begin() + 57);
   run.v.assign(v.begin() + 10, v.begin() + 57);
@@ -275,7 +275,7 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
     double sum = 0, squares = 0;
     constexpr int runs = 200;
     for (int k = 0; k < runs; ++k) {
-      FitRun run{};
+      Run run{};
       run.body = cylinder;
       for (int i = 0; i < 70; ++i) {  // some rows of rest at the end
         const double t = 0.04 * i;
@@ -306,7 +306,7 @@ TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better th
     for (const Route route : {Route::velocity, Route::position}) {
       const auto truth = simulated::roll(cylinder, 2e-3, b, 0.5);
       const double stop = std::pow(0.5, 1 - b) / ((1 - b) * truth.a * truth.c);
-      FitRun run{};
+      Run run{};
       run.body = cylinder;
       for (int i = 0; i < 100; ++i) {
         const double t = 1.1 * stop * i / 99;
@@ -339,7 +339,7 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
           const Parameters q(options, position, 1, 1, 1);
           ObservedRun run;
           run.body = cylinder, run.geometry = geometry,
-          run.column = position ? RawColumn::x : RawColumn::v;
+          run.column = position ? Quantity::x : Quantity::v;
           for (int i = 0; i < 60000; ++i)
             run.t.push_back(5e-5 * i);  // the first law stops at 2.4 s
           const auto theta = q.theta(of, {v0}, {0.3});

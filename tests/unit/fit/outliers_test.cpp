@@ -25,7 +25,7 @@ TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes",
   const auto share = [&] { return static_cast<double>(echo()) * 0x1p-32; };
   int found = 0, covered = 0;
   for (int k = 0; k < runs; ++k) {
-    FitRun run;
+    Run run;
     run.body = body;
     for (int i = 0; i < n; ++i) {
       run.t.push_back(0.95 * stop * i / (n - 1));
@@ -52,11 +52,11 @@ TEST_CASE("fit: a robust joint fit of runs of different noise, in either order",
   int covered = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     simulated::Noise random(seed);
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (const auto& [n, noise] : sizes) {
       const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.35 + 0.01 * seed);
       const double stop = std::pow(truth.v0, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
-      FitRun& run = runs.emplace_back();
+      Run& run = runs.emplace_back();
       run.body = body;
       for (int i = 0; i < n; ++i) {
         run.t.push_back(0.95 * stop * i / (n - 1));
@@ -82,10 +82,10 @@ TEST_CASE("fit: robust joint fits of runs of one noise are not said to have seve
   simulated::Noise noise(31);
   int uneven = 0;
   for (int k = 0; k < 40; ++k) {
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (int r = 0; r < 20; ++r) {
       const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.3 + 0.02 * r);
-      FitRun& run = runs.emplace_back();
+      Run& run = runs.emplace_back();
       run.body = body;
       for (int i = 0; i < 30; ++i) {
         run.t.push_back(0.06 * i);
@@ -109,7 +109,7 @@ TEST_CASE("fit: a robust fit of mirrored positions is the mirrored fit", "[fit]"
   for (int k = 0; k < 150; ++k) {
     const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.2 + 0.6 * share());
     const double stop = std::pow(truth.v0, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
-    FitRun run, mirrored;
+    Run run, mirrored;
     run.body = body;
     const int n = 8 + static_cast<int>(13 * share());
     for (int i = 0; i < n; ++i) {
@@ -119,7 +119,7 @@ TEST_CASE("fit: a robust fit of mirrored positions is the mirrored fit", "[fit]"
     }
     mirrored = run;
     for (double& x : mirrored.x) x *= -1;
-    const auto fit_of = [&](const FitRun& of) -> std::optional<FitResult> {
+    const auto fit_of = [&](const Run& of) -> std::optional<FitResult> {
       try {
         return fit(Route::position, {of}, options);
       } catch (const Error&) {

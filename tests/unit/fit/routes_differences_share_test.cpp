@@ -16,7 +16,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   const Body body{1, 0.04, 0.5};
   const auto truth = simulated::roll(body, 2e-4, 0.2, 1.5);
   constexpr double of_x = 1e-4;
-  FitRun run{};
+  Run run{};
   run.body = body;
   run.t = simulated::times(n);
   for (double& t : run.t) t /= 10;
@@ -26,7 +26,7 @@ WhiteShare found_share(double share, simulated::Noise& noise, std::size_t n = 40
   const double of_v = of_x / std::sqrt(2) / 0.01;
   for (double& v : run.v) v += noise(share * of_v);
   run.filters = {simulated::differentiate(Quantity::x, Quantity::v)};
-  const std::vector<FitRun> runs{run};
+  const std::vector<Run> runs{run};
   const Fitted fit =
       fit_rolls(Route::velocity, runs, usable(Route::velocity, runs), responses_of(runs), {});
   return most_likely_share(fit.model, fit.minimum.theta, 1e-7, 1);
@@ -60,14 +60,14 @@ TEST_CASE("white share: differences alone seem to hold white noise in few rows",
 // does not change the likelihood, which is that of white noise without a filter.
 TEST_CASE("white share: of a filter that changes nothing each is as likely as none", "[fit]") {
   simulated::Noise noise(13);
-  FitRun run{};
+  Run run{};
   run.body = {1, 0.04, 0.5};
   const auto truth = simulated::roll(run.body, 2e-4, 0.2, 1.5);
   run.t = simulated::times(60);
   for (const double t : run.t) run.v.push_back(truth.v(t) + noise(0.01));
-  const std::vector<FitRun> read{run};
+  const std::vector<Run> read{run};
   run.filters = {simulated::smooth_v(1)};
-  const std::vector<FitRun> runs{run};
+  const std::vector<Run> runs{run};
   const auto rows = usable(Route::velocity, runs);
   const Fitted fit = fit_rolls(Route::velocity, runs, rows, responses_of(runs), {});
   REQUIRE(fit.noise->known());

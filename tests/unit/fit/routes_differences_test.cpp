@@ -26,7 +26,7 @@ TEST_CASE(
   double share = 0;  // of the errors by filters that the `##` lines would tell
   constexpr std::size_t runs = 50;
   for (std::size_t k = 0; k < runs; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     std::vector<double> x, v;
     for (int i = 0; i < 120; ++i) {
@@ -40,7 +40,7 @@ TEST_CASE(
     covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
     if (r.errors == Errors::differences) {
       CHECK(r.left_out == 2);  // the ends, where nobody knows what was done
-      FitRun told = run;
+      Run told = run;
       told.filters = {difference};
       share += r.sigma_b / fit(Route::velocity, {told}, {}).sigma_b;
     }
@@ -69,7 +69,7 @@ TEST_CASE(
   FitOptions options;
   options.possible_filters = {simulated::differentiate(Quantity::x, Quantity::v)};
   simulated::Noise noise(5);
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   std::vector<double> x;
   for (int i = 0; i < 5000; ++i)
@@ -95,10 +95,10 @@ TEST_CASE(
   std::size_t white = 0, differences = 0;
   constexpr std::size_t pairs = 60;
   for (std::size_t k = 0; k < pairs; ++k) {
-    std::vector<FitRun> by_speed(2), by_position(2);
+    std::vector<Run> by_speed(2), by_position(2);
     for (std::size_t r = 0; r < 2; ++r) {
       const auto truth = simulated::roll(cylinder, 5.75e-4, 0.1, 0.5);
-      FitRun& run = by_speed[r];
+      Run& run = by_speed[r];
       run.body = cylinder;
       std::vector<double> x;
       for (int i = 0; i < (r == 0 ? 120 : 12); ++i) {
@@ -127,7 +127,7 @@ TEST_CASE("differences: speeds with white noise and a sudden stop are not taken 
   simulated::Noise noise(44);
   int taken = 0, covered = 0;
   for (int k = 0; k < 200; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     for (int i = 0; i < 100; ++i) {
       run.t.push_back(1.25 * exact.stop_time() / 99 * i);
@@ -152,7 +152,7 @@ TEST_CASE("differences: those to the row before, of a spreadsheet, on even and o
   for (const double jitter : {0.0, 0.1}) {
     int found = 0, covered = 0, white = 0, of_v0 = 0;
     for (int k = 0; k < 50; ++k) {
-      FitRun run{};
+      Run run{};
       run.body = cylinder;
       double before = truth.x(-0.04) + noise(3e-4);
       for (int i = 0; i < 90; ++i) {
@@ -187,7 +187,7 @@ TEST_CASE("differences: no hypothesis takes the slow half of a run away", "[fit]
   options.possible_filters = filters_of_sensors();
   simulated::Noise noise(22);
   for (int k = 0; k < 20; ++k) {
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     for (double t = 0; t < 5.2; t += 0.02 * 0.5 / std::max(truth.v(t), 0.05)) {
       run.t.push_back(t);

@@ -14,7 +14,7 @@ const Body cylinder{1.375, 0.04, 0.5};
 
 /// The largest amount, in variances of a residual, by which a law with another exponent, held
 /// within two standard errors of the one that was found, lowers the sum of squares.
-double lower_by_another_exponent(Route route, const FitRun& run) {
+double lower_by_another_exponent(Route route, const Run& run) {
   const Fitted found = fit_route(route, {run}, {});
   const auto n = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
   const double sigma = std::sqrt(uncertainty_of(found).covariance[1][1]);
@@ -28,9 +28,9 @@ double lower_by_another_exponent(Route route, const FitRun& run) {
   return most;
 }
 
-FitRun speeds(double b, simulated::Noise& noise, double size) {
+Run speeds(double b, simulated::Noise& noise, double size) {
   const auto truth = simulated::roll(cylinder, 1e-3, b, 0.5);
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   for (double t = 0; t < 3 || truth.v(t - 0.3) > 0; t += 0.05) {
     run.t.push_back(t);
@@ -47,11 +47,11 @@ TEST_CASE("cusps: no exponent that is held fits speeds better than the one that 
   simulated::Noise noise(46);
   for (const double b : {-0.6, -0.3, -0.05, 0.0, 0.2})
     for (int k = 0; k < 40; ++k) {
-      const FitRun run = speeds(b, noise, k % 2 ? 5e-3 : 2e-2);
+      const Run run = speeds(b, noise, k % 2 ? 5e-3 : 2e-2);
       CAPTURE(b, k);
       CHECK(lower_by_another_exponent(Route::velocity, run) < 0.1);
       if (k < 10) {
-        FitRun shifts = simulated::shifts(cylinder, run.t, run.v, 5);
+        Run shifts = simulated::shifts(cylinder, run.t, run.v, 5);
         shifts.body = cylinder;
         CHECK(lower_by_another_exponent(Route::shift, shifts) < 0.1);
       }
@@ -64,7 +64,7 @@ TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit][many]")
   FitOptions options;
   options.fit_slope = true;
   for (int k = 0; k < 20; ++k) {
-    FitRun up = speeds(-0.3, noise, 5e-3), down = speeds(-0.3, noise, 5e-3);
+    Run up = speeds(-0.3, noise, 5e-3), down = speeds(-0.3, noise, 5e-3);
     for (double& v : down.v) v = -v;
     const Fitted found = fit_route(Route::velocity, {up, down}, options);
     for (const double b : {-0.34, -0.32, -0.3, -0.28, -0.26}) {
@@ -84,7 +84,7 @@ TEST_CASE("cusps: a roll whose shift is just within the radius keeps its minimum
   body.slope = 0.01;
   const double D = body.R * (1 - 1e-7), v0 = 0.5, theta = std::atan(body.slope),
                rate = body.g * (D / body.R * std::cos(theta) + std::sin(theta)) / (body.K + 1);
-  FitRun run{};
+  Run run{};
   run.body = body;
   for (int i = 0; i < 50; ++i) {
     run.t.push_back(0.002 * i);
@@ -104,7 +104,7 @@ TEST_CASE("rolls: the squares of a joint fit of shifts are those of all runs", "
     t.push_back(0.04 * i);
     v.push_back(truth.v(t.back()) + noise(1e-3));
   }
-  const FitRun run = simulated::shifts(cylinder, t, v, 5);
+  const Run run = simulated::shifts(cylinder, t, v, 5);
   const FitResult one = fit(Route::shift, {run}, {}), both = fit(Route::shift, {run, run}, {});
   const auto squares = [](const FitResult& r, double parameters) {
     return r.rms * r.rms * (static_cast<double>(r.n) - parameters);

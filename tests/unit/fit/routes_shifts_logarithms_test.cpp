@@ -11,7 +11,7 @@ using namespace rolling;
 
 // Ordinary least squares of (ln x, ln y) of NIST's DanWood, computed with 25 digits.
 TEST_CASE("loglog: DanWood's line to 13 digits", "[fit]") {
-  FitRun run{};
+  Run run{};
   run.v = {1.309, 1.471, 1.490, 1.565, 1.611, 1.680};
   run.D = {2.138, 3.421, 3.597, 4.340, 4.882, 5.660};
   const auto r = fit(Route::loglog, {run}, {});
@@ -25,7 +25,7 @@ TEST_CASE("loglog: DanWood's line to 13 digits", "[fit]") {
 
 TEST_CASE("loglog: rows without a logarithm are left out and counted; none left is refused",
           "[fit]") {
-  FitRun run{};
+  Run run{};
   run.v = {1, 2, 4, 0, -1, 3, NAN};  // the last one is missing
   run.D = {3, 6, 12, 1, 1, -1, 1};
   const auto r = fit(Route::loglog, {run}, {});
@@ -42,7 +42,7 @@ TEST_CASE("loglog: D <= 0 in more than one row of a hundred biases the line, wha
   std::mt19937 random(17);
   Normal noise;
   for (const double share : {0.2, 0.5, 1.0, 2.0}) {
-    FitRun run{};
+    Run run{};
     std::size_t negative = 0;
     for (int i = 1; i <= 2000; ++i) {
       run.v.push_back(0.0005 * i);
@@ -55,7 +55,7 @@ TEST_CASE("loglog: D <= 0 in more than one row of a hundred biases the line, wha
     const bool biased = std::abs(std::log(r.a / 0.5)) > r.sigma_a / r.a;
     CHECK(logarithms_biased(r) == biased);
   }
-  FitRun exact{};
+  Run exact{};
   exact.v = {1, 2, 3, 4, 5, 6}, exact.D = {3, 6, -1, 12, 15, 18};
   CHECK(logarithms_biased(fit(Route::loglog, {exact}, {})));
   exact.v[2] = -3;  // it comes back: no reading of D at that speed is negative
@@ -63,7 +63,7 @@ TEST_CASE("loglog: D <= 0 in more than one row of a hundred biases the line, wha
 }
 
 TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") {
-  FitRun run{};
+  Run run{};
   run.v = {1, 2, 4};
   run.D = {3, 7, 11};
   FitOptions options;
@@ -72,7 +72,7 @@ TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") 
 }
 
 TEST_CASE("loglog: a held coefficient, squares and bisquare alike", "[fit]") {
-  FitRun run{};
+  Run run{};
   for (int i = 1; i <= 40; ++i)
     run.v.push_back(0.05 * i), run.D.push_back(3 * std::pow(0.05 * i, 0.7));
   FitOptions options;
@@ -88,9 +88,9 @@ TEST_CASE(
     "sums of a line",
     "[fit]") {
   simulated::Noise noise(8);
-  std::vector<FitRun> runs(2);
+  std::vector<Run> runs(2);
   std::vector<double> log_v, log_D;
-  for (FitRun& run : runs) {
+  for (Run& run : runs) {
     double error = 0;
     for (int i = 1; i <= 100; ++i) {
       error = 0.7 * error + noise(0.05);
@@ -131,8 +131,8 @@ TEST_CASE("loglog: with known filters the line is the same and its errors are th
     std::vector<double> t, v;
     for (int i = 0; i < 45; ++i)
       t.push_back(0.04 * i), v.push_back(truth.v(0.04 * i) + noise(5e-4));
-    const FitRun known = simulated::shifts(body, t, v, 11);
-    FitRun unknown = known;
+    const Run known = simulated::shifts(body, t, v, 11);
+    Run unknown = known;
     unknown.filters.clear();
     const auto r = fit(Route::loglog, {known}, {}), plain = fit(Route::loglog, {unknown}, {});
     CHECK(r.b == plain.b);

@@ -14,17 +14,17 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-FitRun run_of(std::vector<double> v, std::vector<double> D) {
-  FitRun run{};
+Run run_of(std::vector<double> v, std::vector<double> D) {
+  Run run{};
   run.v = std::move(v);
   run.D = std::move(D);
   return run;
 }
 
-std::vector<ObservedRun> observed(const std::vector<FitRun>& runs, const FitOptions& options,
+std::vector<ObservedRun> observed(const std::vector<Run>& runs, const FitOptions& options,
                                   bool logarithms) {
   std::vector<Rows> rows;
-  for (const FitRun& run : runs) rows.push_back(shift_rows(run, options, logarithms));
+  for (const Run& run : runs) rows.push_back(shift_rows(run, options, logarithms));
   return observed_shifts(runs, rows, options, logarithms);
 }
 
@@ -32,7 +32,7 @@ std::vector<ObservedRun> observed(const std::vector<FitRun>& runs, const FitOpti
 
 TEST_CASE("shift rows: along the motion, v finite and positive, D positive for logarithms",
           "[fit]") {
-  const std::vector<FitRun> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
+  const std::vector<Run> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                                  run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
   const std::vector<ObservedRun> all = observed(runs, {}, false);
   CHECK(all[0].y == std::vector<double>{3, -1});
@@ -58,13 +58,13 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
 }
 
 TEST_CASE("shift rows: what rounding leaves of a difference is 0", "[fit]") {
-  const std::vector<FitRun> runs{run_of({0.4, 0.3, 0.2, 3e-17, 0.1}, {3, 2e-15, 2, 1, 1e20})};
+  const std::vector<Run> runs{run_of({0.4, 0.3, 0.2, 3e-17, 0.1}, {3, 2e-15, 2, 1, 1e20})};
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 1, 2, 4});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0, 2, 4});  // one large shift leaves the others
 }
 
 TEST_CASE("shift rows: the derivatives of the residuals are those of differences", "[fit]") {
-  const std::vector<FitRun> runs{run_of({0.4, 0.2, 0.1, 0.05}, {3e-3, 2e-3, 2.5e-3, 1e-3})};
+  const std::vector<Run> runs{run_of({0.4, 0.2, 0.1, 0.05}, {3e-3, 2e-3, 2.5e-3, 1e-3})};
   for (const bool logarithms : {false, true})
     for (const bool hold_a : {false, true})
       for (const bool hold_b : {false, true}) {

@@ -20,7 +20,7 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
   for (const bool position : {false, true})
     for (const double b : {-0.3, 0.1, 0.4, 0.8, 1.2, 1.7}) {
       const auto truth = simulated::roll(cylinder, 1e-3, b, 0.4);
-      FitRun run{};
+      Run run{};
       run.body = cylinder;
       for (int i = 0; i < 150; ++i) {
         run.t.push_back(0.02 * i);
@@ -47,7 +47,7 @@ TEST_CASE("first guess: near the law of exact runs, whatever the exponent, from 
 TEST_CASE("first guess: the means of many rows are those of all of them, each once", "[fit]") {
   const auto truth = simulated::roll(cylinder, 1.87e-3, 0.215, 0.5);
   simulated::Noise noise(13);
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   constexpr double step = 2e-4;
   for (int i = 0; i < 10000; ++i) {
@@ -75,7 +75,7 @@ TEST_CASE("first guess: of a long run all rows count, where means of them come n
   constexpr std::size_t n = 10000;
   const auto truth = simulated::roll(cylinder, a, b, v0);
   simulated::Noise noise(14);
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   for (std::size_t i = 0; i < n; ++i) {
     run.t.push_back(2.2 * static_cast<double>(i) / n);
@@ -111,7 +111,7 @@ TEST_CASE(
     "lacks",
     "[fit]") {
   const auto refused = [](double (*v)(int)) {
-    FitRun run{};
+    Run run{};
     run.body = cylinder;
     for (int i = 0; i < 5000; ++i) run.t.push_back(0.01 * i), run.v.push_back(v(i));
     try {
@@ -128,7 +128,7 @@ TEST_CASE(
 
 // The one law that is left comes to its stop while the body still rolls the other way.
 TEST_CASE("first guess: speeds that the one law held has against them are refused", "[fit]") {
-  FitRun run{};
+  Run run{};
   run.body = cylinder;
   for (int i = 0; i < 10; ++i) run.t.push_back(i), run.v.push_back(i < 2 ? -0.5 : 1);
   FitOptions held;

@@ -15,7 +15,7 @@ namespace {
 
 /// Speeds of 5 to 8 positions over the roll and perhaps a rest behind it, by filters that are
 /// known.
-FitRun short_run(const Body& body, PowerLaw law, std::mt19937_64& random, simulated::Noise& noise) {
+Run short_run(const Body& body, PowerLaw law, std::mt19937_64& random, simulated::Noise& noise) {
   const auto uniform = [&](double from, double to) {
     return from + (to - from) * (static_cast<double>(random() >> 11) * 0x1p-53);
   };
@@ -23,7 +23,7 @@ FitRun short_run(const Body& body, PowerLaw law, std::mt19937_64& random, simula
   const double time = std::pow(truth.v0, 1 - law.b) / (law.a * truth.c),
                size = std::pow(10, uniform(-5, -2.5));
   const std::size_t n = 5 + random() % 4;
-  FitRun run{};
+  Run run{};
   run.body = body;
   const double end = time * uniform(0.5, 2.5);
   for (std::size_t i = 0; i < n; ++i) {
@@ -45,7 +45,7 @@ TEST_CASE("joint fit: the order of the runs does not matter, and the errors are 
     std::mt19937_64 random(seed);
     simulated::Noise noise(seed);
     const PowerLaw law{1e-3, 0.2};
-    std::vector<FitRun> runs;
+    std::vector<Run> runs;
     for (std::size_t k = 2 + seed % 4; k > 0; --k)
       runs.push_back(short_run(body, law, random, noise));
     FitResult one{}, other{};

@@ -70,10 +70,10 @@ inline rolling::LinearFilter shift() {
 }
 /// v and D of a run of raw readings, smoothed over `width` speeds and differentiated, by Eq. 11
 /// with A = 1; the filters are known.
-inline rolling::FitRun shifts(const rolling::Body& body, std::vector<double> t,
+inline rolling::Run shifts(const rolling::Body& body, std::vector<double> t,
                               std::vector<double> raw, std::size_t width,
                               const char* source = "v") {
-  rolling::FitRun run{};
+  rolling::Run run{};
   run.shift_of = rolling::ShiftOf{body};
   if (source[0] == 'x') {
     run.filters.push_back(differentiate(rolling::Quantity::x, rolling::Quantity::v));

@@ -40,7 +40,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, Geometry::approximate,
                    PowerLaw{scene.a, scene.b}, 0.5);
         const double way = seed % 2 ? 1 : -1;
-        FitRun run{};
+        Run run{};
         run.body = {1, scene.R, scene.K};
         for (double t = 0; t < scene.end; t += 0.04) {
           const auto p = truth.at(t);
@@ -65,7 +65,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
 TEST_CASE("turning run: without a slope it is refused, and told what it needs", "[fit]") {
   Roll truth({1, 0.0127, 0.4, 9.81, 0.02}, Geometry::approximate, PowerLaw{5e-5, 0.1}, 0.5);
   simulated::Noise noise(1);
-  FitRun run{};
+  Run run{};
   run.body = {1, 0.0127, 0.4};
   for (double t = 0; t < 6.2; t += 0.04) {
     const auto p = truth.at(t);

@@ -33,7 +33,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
       for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
       for (const double of_e : E.times(e)) data.push_back(3 + 0.5 * t[data.size()] + of_e);
       ObservedRun run;
-      run.column = RawColumn::D, run.t = t, run.y = data;
+      run.column = Quantity::D, run.t = t, run.y = data;
       Fitted fit{.minimum = {},
                  .noise = noise,
                  .model = Model(std::vector{run}, Parameters({}, 1).with(laws()[2], 1, 1))};
