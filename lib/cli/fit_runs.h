@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/tool.h"
-#include "fit/diagnostics.h"
+#include "fit/refits.h"
 #include "fit/fit.h"
 #include "fit/input.h"
 

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/matrix.h"
 #include "base/median.h"
-#include "fit/errors.h"
+#include "fit/uncertainty.h"
 #include "fit/fitted.h"
 #include "statistics/levels.h"
 #include "least_squares/minimise.h"

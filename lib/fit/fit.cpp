@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "fit/diagnostics.h"
-#include "fit/errors.h"
+#include "fit/refits.h"
 #include "fit/fitted.h"
 #include "fit/routes.h"
 

@@ -3,103 +3,14 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "base/estimate.h"
 #include "base/matrix.h"
-#include "contact/law.h"
 #include "fit/input.h"
-#include "statistics/run_laws.h"
+#include "fit/result.h"
 
 namespace rolling {
-
-/// The estimator of the standard errors. none: there are as many parameters as rows, and the
-/// errors and rms are NaN. classical: independent noise of equal variance. filters: the covariance
-/// of the known filters. differences: the covariance of a difference filter that was inferred from
-/// the residuals. uneven: consistent for noise of unequal variance (HC3). autocorrelation:
-/// consistent for autocorrelated noise (Newey and West).
-enum class Errors { none, classical, filters, differences, uneven, autocorrelation };
-
-/// An eccentric body: the centre of mass lies a distance e from the axis. Its weight then has a
-/// torque of period one turn, as if the shift were D + e cos(x/R - phase), with x = 0 at the
-/// beginning of the run.
-struct Eccentricity {
-  std::size_t run;  ///< the number of the run, from 0
-  double p;         ///< the probability that noise alone gives a signal as large
-  double e, sigma;  ///< the eccentricity and its standard error [m]
-  double phase;     ///< [rad]
-};
-
-/// Single readings that are off the motion of the others, see off_readings().
-struct OffReadings {
-  std::size_t run;      ///< the number of the run, from 0
-  std::size_t count;    ///< of the readings of that run; 0 if none is off
-  double time;          ///< of the reading that is furthest off [s]
-  double distance = 0;  ///< of that reading, in standard deviations of the others
-};
-
-/// The contribution of one source of error to the standard errors, which are the root sums of
-/// squares of the contributions. That of a given number is the change of the result when the number
-/// changes by one standard uncertainty.
-struct ErrorShare {
-  /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
-  std::string of;
-  Matrix covariance;  ///< contribution to that of Fitted::numbers(), first of the coefficients
-
-  double sigma(std::size_t number) const { return std::sqrt(covariance[number][number]); }
-};
-
-/// The covariance that a change brings when it has a standard uncertainty of one.
-inline Matrix outer_square(const std::vector<double>& change) {
-  Matrix all;
-  for (const double x : change)
-    for (all.emplace_back(); const double y : change) all.back().push_back(x * y);
-  return all;
-}
-
-struct FitResult {
-  Law law;
-  std::vector<Estimate> coefficients = {};  ///< as the formula of the law names them, in SI units
-  Matrix correlations = {};                 ///< 0 where one of the two is fixed
-  /// The same of a v^b, a in m (s/m)^b; NaN for another law.
-  double a = NAN, sigma_a = NAN, b = NAN, sigma_b = NAN, corr = NAN;
-  double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
-  std::size_t n;  ///< number of fitted rows
-  std::size_t freedom;       ///< degrees of freedom of the errors, see Fitted::degrees_left()
-  std::size_t left_out = 0;  ///< number of rows, but for missing ones, that the route did not use
-  std::size_t negative;      ///< of these, those with D <= 0 whose noise loglog does not know
-  double whiteness;          ///< p of the autocorrelation of the noise (Ljung and Box); NaN
-                             ///< where it is not tested
-  double reversals = 1;      ///< p of so few steps against the motion, see few_reversals()
-  /// At the first row [m/s], of each run (trajectory routes). Of several runs only the first has an
-  /// error.
-  std::vector<Estimate> v0 = {};
-  std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
-  double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
-  Errors errors;
-  std::optional<Eccentricity> eccentricity = {};  ///< of the run with the signal of the smallest p
-  std::optional<Agreement> agreement = {};        ///< for two or more runs
-  OffReadings off = {};                           ///< of the run with the reading furthest off
-  std::vector<ErrorShare> shares = {};            ///< the noise first
-};
-
-/// True if the noise is autocorrelated, by a small p, and the standard errors allow for that.
-inline bool noise_is_correlated(const FitResult& r) {
-  return r.errors == Errors::autocorrelation && r.whiteness <= levels::not_white;
-}
-
-/// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second
-/// order). The function is true if this is more than the standard error of the line at the speed
-/// where the line is known best, sigma_a / a sqrt(1 - corr^2). It is also true if more than one
-/// row in a hundred has D <= 0: the standard deviation of D is then 0.43 D or more, and the
-/// logarithms of the others are too low by 0.1, or too high where many are left out.
-inline bool logarithms_biased(const FitResult& r) {
-  return 100 * r.negative > r.n + r.negative ||
-         (r.rms * r.rms / 2 > r.sigma_a / r.a * std::sqrt(1 - r.corr * r.corr) && r.sigma_a > 0);
-}
 
 /// Fits all runs jointly: a and b are common to the runs, v0 and x0 belong to each run. Where the
 /// runs disagree, a and b are the means of the runs' own values (errors.h). Throws Error with a

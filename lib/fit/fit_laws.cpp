@@ -8,35 +8,13 @@
 
 #include "base/matrix.h"
 #include "base/error.h"
-#include "fit/errors.h"
+#include "fit/refits.h"
 #include "fit/routes.h"
 #include "fit/fitted.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
 namespace {
-
-bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
-
-/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
-/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
-/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
-/// is infinite where none is found.
-Fitted fit_beside(const Fitted& power, const LawForm& law) {
-  Fitted fit{};
-  fit.noise = power.noise;
-  const double v = power.fastest();
-  fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
-  for (const auto& c : law.starts) {
-    std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
-    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
-               end = theta.end() - power.slope.has_value();
-    theta.insert(theta.erase(first, end), c.begin(), c.end());
-    improve(fit.minimum, fit.system(), theta);
-  }
-  if (was_found(fit)) report(fit);
-  return fit;
-}
 
 /// The number of independent rows, from the law that leaves the smallest autocorrelation.
 double independent_rows(const std::vector<Fitted>& all) {
@@ -49,14 +27,6 @@ double independent_rows(const std::vector<Fitted>& all) {
 }
 
 }  // namespace
-
-Fitted fit_of_law(const Fitted& power, const LawForm& law) {
-  const char* const slope =
-      power.slope ? " and the slope of the mat: add runs in the other direction" : "";
-  Fitted found = fit_beside(power, law);
-  if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, slope);
-  return found;
-}
 
 LawComparison compare_laws(Route route, const std::vector<Run>& runs, FitOptions options) {
   if (options.robust) fail("laws are compared by squares only");

@@ -3,6 +3,8 @@
 // their gradients with respect to the parameters.
 #pragma once
 
+#include <cmath>
+
 #include "fit/model.h"
 #include "least_squares/minimise.h"
 #include "statistics/residuals.h"
@@ -64,6 +66,9 @@ struct Fitted {
   std::size_t degrees_left() const;
 };
 
+/// False if a search found no minimum.
+inline bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
+
 /// Writes the coefficients of the law with their gradients into the fit, and of a roll the slope,
 /// v0 and x0.
 void report(Fitted&);
@@ -71,13 +76,5 @@ void report(Fitted&);
 /// Throws Error if n rows, so many of which filters leave independent, are too few for p
 /// parameters, or if p = 0.
 void require_rows(std::size_t n, std::size_t p, std::size_t independent);
-
-/// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
-/// standard errors.
-Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
-
-/// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
-/// Throws Error if the rows do not determine it.
-Fitted fit_of_law(const Fitted& power, const LawForm&);
 
 }  // namespace rolling

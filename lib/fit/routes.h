@@ -11,6 +11,17 @@
 
 namespace rolling {
 
+/// Fits by one route, without the errors. Throws Error as fit() does, except for the limits on the
+/// standard errors.
+Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
+
+/// The same; the sum of squares is infinite where none is found.
+Fitted fit_beside(const Fitted& power, const LawForm&);
+
+/// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
+/// Throws Error if the rows do not determine it.
+Fitted fit_of_law(const Fitted& power, const LawForm&);
+
 /// The starting point for the fit of a roll.
 struct FirstGuess {
   Parameters parameters;  ///< with units v_ref and x_ref that suit the data
@@ -30,6 +41,11 @@ std::vector<Rows> usable(Route, const std::vector<Run>&);
 /// Fits a roll: position, velocity, and shift with known filters (`responses`).
 Fitted fit_rolls(Route, const std::vector<Run>&, std::vector<Rows>, std::vector<Response>,
                  const FitOptions&, AddedNoise = {});
+
+/// Minimises by the loss that the options name: squares from the first start. The robust loss
+/// ignores what the cusps make.
+Minimum search(const Model&, const System&, const std::vector<std::vector<double>>& starts,
+               const FitOptions&);
 
 /// The fit of these runs with the weights of this noise.
 Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,

@@ -36,47 +36,6 @@ bool leave_out_slow(const Model& model, const std::vector<double>& theta,
   return slow > 0;
 }
 
-/// The sum of the squares of speeds, as a function of the time T of the stop, has a cusp at each
-/// row where b < 1/2: the speed just before the stop grows like (T - t)^(1/(1 - b)), whose
-/// second derivative is unbounded. So the sum may have a minimum in each interval between two
-/// rows, and Gauss-Newton steps do not leave it. This function starts the search again with T
-/// earlier and later, up to the interval beside that of the minimum, until no such start leads to a
-/// smaller sum. Positions are smoother by one order, and nothing is done.
-///
-/// The minima differ the less the more rows there are: above 2048 rows times runs nothing is done.
-Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
-  constexpr std::size_t many = 2048;  // rows times runs
-  const auto& runs = rolls.runs();
-  if (runs.front().column == Quantity::x || system.own == 0 ||
-      system.residuals() * runs.size() > many)
-    return best;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double end = runs[r].t.back(),
-                 step = end / static_cast<double>(std::max<std::size_t>(runs[r].t.size(), 2) - 1);
-    for (double before = INFINITY; best.rss < before * (1 - 1e-6);) {
-      before = best.rss;
-      for (const double rows : {-1.0, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0}) try {
-          Roll roll = rolls.roll(best.theta, r);
-          if (roll.turns() || !(roll.stop_time() < end + step)) break;
-          const Roll::Point first = roll.at(0);
-          std::vector<double> start = best.theta;
-          start[system.place(r, 0)] *= 1 - rows * step * first.a / first.v;
-          improve(best, system, start);
-        } catch (const Error&) {  // there is no roll whose stop is then
-        }
-    }
-  }
-  return best;
-}
-
-/// Minimises by the loss that the options name: squares from the first start. The robust loss
-/// ignores what the cusps make.
-Minimum search(const Model& model, const System& system,
-               const std::vector<std::vector<double>>& starts, const FitOptions& options) {
-  return options.robust ? minimise_robust(system, starts)
-                        : beyond_cusps(model, system, minimise(system, starts.front()));
-}
-
 /// The sum of squares of the residuals without weights.
 double unweighted(const Fitted& fit) {
   return evaluated(system_of(fit.model), fit.minimum.theta).rss;
@@ -109,15 +68,6 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
 }
 
 }  // namespace
-
-Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
-                std::shared_ptr<const Noise> noise, const FitOptions& options) {
-  Model model(std::move(runs), start.parameters);
-  Minimum minimum = search(model, system_of(model, noise), start.starts, options);
-  Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
-  report(fit);
-  return fit;
-}
 
 Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
   const auto& theta = joint.minimum.theta;

@@ -12,7 +12,7 @@
 #include "base/median.h"
 #include "contact/contact.h"
 #include "contact/law.h"
-#include "fit/errors.h"
+#include "fit/uncertainty.h"
 #include "statistics/logarithm_of_noise.h"
 
 namespace rolling {

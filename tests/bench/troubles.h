@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "contact/law.h"
-#include "fit/diagnostics.h"
+#include "fit/refits.h"
 #include "fit/fit.h"
 #include "fit/fitted.h"
 #include "unit/fit/simulated.h"

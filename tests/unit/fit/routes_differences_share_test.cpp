@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/routes.h"
 
-#include "fit/errors.h"
+#include "fit/refits.h"
 #include "least_squares/minimise.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"

@@ -2,7 +2,7 @@
 #include "least_squares/minimise.h"
 
 #include "base/error.h"
-#include "fit/errors.h"
+#include "fit/refits.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 #include "unit/least_squares/systems.h"

@@ -2,7 +2,7 @@
 #include "noise/noise.h"
 
 #include "least_squares/minimise.h"
-#include "fit/errors.h"
+#include "fit/refits.h"
 #include "noise/response.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"

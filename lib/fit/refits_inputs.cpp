@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/errors.h"
+#include "fit/refits.h"
 
 #include <fmt/core.h>
 

@@ -1,46 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The standard errors of a fit: from the noise of its rows, from runs that disagree, and from the
-// input quantities, which are the K, R, g and slope that are given.
+// What other fits of the same runs tell of a fit: whether the runs agree, what the input quantities
+// (K, R, g and the slope that are given) bring to its errors, whether a beginning is disturbed.
 #pragma once
 
-#include "fit/fit.h"
-#include "fit/fitted.h"
+#include <optional>
+#include <vector>
+
+#include "fit/result.h"
+#include "fit/routes.h"
+#include "fit/uncertainty.h"
 
 namespace rolling {
-
-/// What the noise of a fit does to its numbers.
-struct Uncertainty {
-  Errors kind;
-  double whiteness;   ///< as in FitResult
-  Matrix covariance;  ///< of Fitted::numbers(); 0 for one that is fixed
-};
-
-/// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
-/// rows of Q.
-Matrix orthonormal(const System&, const Minimum&);
-
-/// The noise that the residuals of a fit with this Q show; of a log-log line behind known filters,
-/// that of the roll that made its rows.
-SeenNoise seen_noise(const Fitted&, Matrix Q);
-
-/// The covariance of a fit, R^-1 M R^-T with the meat M of the sandwich. For known filters it is
-/// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for
-/// known filters the noise of the raw column). If it is not white (Ljung and Box), the covariance
-/// is that of Newey and West, already at 10 % if neighbouring residuals are positively correlated;
-/// otherwise, if the variance is uneven at 1 %, along the runs or between them, it is HC3.
-Uncertainty uncertainty_of(const Fitted&, Matrix Q);
-inline Uncertainty uncertainty_of(const Fitted& fit) {
-  return uncertainty_of(fit, orthonormal(fit.system(), fit.minimum));
-}
-
-/// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
-/// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
-/// leave them, of which none repeats and whose times are not those of a clock, are not rounded.
-double variance_of_rounding(const Fitted&);
-
-/// The correlations of the first n numbers; 0 where a variance is 0, as that of a number that is
-/// fixed.
-Matrix correlations_of(const Matrix& covariance, std::size_t n);
 
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean
@@ -74,5 +44,29 @@ Fitted fit_of_disagreeing(Route, const std::vector<Run>&, const FitOptions&);
 /// possible.
 std::vector<ErrorShare> shares_of_given(Route, const std::vector<Run>&, const FitOptions&,
                                         const Fitted&, bool agree);
+
+/// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
+/// because of a hand that still pushes or of sliding.
+struct Beginning {
+  std::size_t run;   ///< the number of the run, from 0
+  std::size_t rows;  ///< number of disturbed rows
+  double time;       ///< from the first disturbed row to the first undisturbed one [s]
+  double p;          ///< the probability that noise alone gives such rows
+};
+
+/// Chow's predictive test (1960, Econometrica 28, 591) asks whether the first 3, 5, 8, 13, ...
+/// rows of a run (at most a quarter of it) agree with the prediction from the others. Each run
+/// is fitted by itself (the slope of the mat fixed at that of all), as the law of a joint fit has
+/// errors from the noise of the other runs, which may be larger. The statistic is the F ratio of
+/// the reduction of the sum of squares that their removal causes to the variance of the noise: that
+/// of the other residuals, or of the first k + 5 by their second differences where that is larger.
+/// (The noise may differ along a run; the deviation that a hand leaves is smooth.) The result is
+/// the run with the smallest p, if this is below 0.1 % after Bonferroni's correction and
+/// the other residuals of that run are white: noise of long memory would deviate everywhere.
+///
+/// Runs of fewer than 20 rows more than parameters are left out. The result is empty for a
+/// robust fit and one that is not a roll, and for filtered columns: filters spread a disturbance
+/// over all residuals, which then are not white. Throws Error if the joint fit is not possible.
+std::optional<Beginning> disturbed_beginning(Route, const std::vector<Run>&, const FitOptions&);
 
 }  // namespace rolling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/diagnostics.h"
+#include "fit/refits.h"
 
 #include <gsl/gsl_cdf.h>
 

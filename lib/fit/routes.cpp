@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/routes.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+
+namespace rolling {
+
+/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
+/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
+/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
+/// is infinite where none is found.
+Fitted fit_beside(const Fitted& power, const LawForm& law) {
+  Fitted fit{};
+  fit.noise = power.noise;
+  const double v = power.fastest();
+  fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
+  for (const auto& c : law.starts) {
+    std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
+    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
+               end = theta.end() - power.slope.has_value();
+    theta.insert(theta.erase(first, end), c.begin(), c.end());
+    improve(fit.minimum, fit.system(), theta);
+  }
+  if (was_found(fit)) report(fit);
+  return fit;
+}
+
+Fitted fit_of_law(const Fitted& power, const LawForm& law) {
+  const char* const slope =
+      power.slope ? " and the slope of the mat: add runs in the other direction" : "";
+  Fitted found = fit_beside(power, law);
+  if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, slope);
+  return found;
+}
+
+namespace {
+
+/// Fits a v^b.
+Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& options) {
+  if (options.a && !(*options.a > 0))
+    fail("a = {} cannot be fixed: it must be positive", *options.a);
+  std::vector<Response> responses = responses_of(runs);
+  const bool known = !responses.empty();
+  if (options.fit_slope && route == Route::loglog)
+    fail("the slope shows in a roll alone, not in a line through ln D: --route shift");
+  if (options.fit_slope && route == Route::shift && !known)
+    fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
+  if (options.robust && known)
+    fail(
+        "--robust judges single readings, and a filter spreads an outlier over many: fit the "
+        "column that was not smoothed");
+  if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
+  if (!known && route == Route::shift) return fit_shift(runs, options);
+  Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
+  if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
+      fit.minimum.f.size() >= 30)
+    if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
+  return fit;
+}
+
+}  // namespace
+
+Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& options) {
+  if (options.fits_power()) return fit_power(route, runs, options);
+  if (route == Route::loglog)
+    fail("a straight line of logarithms is a law a v^b: fit D = {} with --route shift",
+         options.law->formula);
+  if (options.robust)
+    fail("D = {} is fitted by squares only, not with --robust", options.law->formula);
+  if (options.a || options.b)
+    fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
+  return fit_of_law(fit_power(route, runs, options), *options.law);
+}
+
+}  // namespace rolling
