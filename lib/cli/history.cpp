@@ -38,8 +38,7 @@ std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
 }
 
 /// A streaming filter as one of whole columns.
-LinearFilter linear(Quantity from, Quantity to, const SignalOptions& options,
-                    std::size_t reach) {
+LinearFilter linear(Quantity from, Quantity to, const SignalOptions& options, std::size_t reach) {
   return {from, to, reach,
           [options](auto t, auto y) {
     return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
@@ -241,8 +240,8 @@ History give_filters(History history, Run& run, const std::vector<Quantity>& col
   raw.erase(Quantity::t);
   if (raw != std::set{Quantity::x} && raw != std::set{Quantity::v}) {
     if (change_numbers(history.filters))
-      distrust(fmt::format("its filtered columns were made of {}, not of x or v alone",
-                           names_of(raw)));
+      distrust(
+          fmt::format("its filtered columns were made of {}, not of x or v alone", names_of(raw)));
     history.filters.clear();
   }
   run.filters = history.filters;

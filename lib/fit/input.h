@@ -9,6 +9,7 @@
 #include "noise/response.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rolling {

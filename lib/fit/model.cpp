@@ -175,8 +175,8 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
   const Law law = parameters_.law(theta);
   if (!is_roll())
-    return [&q = parameters_, law, logarithm = run.logarithm](
-               double v, double* slopes, std::size_t stride) {
+    return [&q = parameters_, law, logarithm = run.logarithm](double v, double* slopes,
+                                                              std::size_t stride) {
       std::array<double, LawForm::most> by_c{};
       const double D = law.at(v, by_c.data()).D;
       if (logarithm)

@@ -67,8 +67,7 @@ std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
 /// Sensors' programs differ in how they treat the ends of a run and lost rows; elsewhere the
 /// candidates are known. This function removes from `rows` the rows whose window reaches an end
 /// or a gap; it returns false if that would be half of a run: what is left would be another run.
-bool leave_out_irregular(const std::vector<Run>& all, std::vector<Rows>& rows,
-                         std::size_t reach) {
+bool leave_out_irregular(const std::vector<Run>& all, std::vector<Rows>& rows, std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::size_t n = all[r].t.size(), before = rows[r].size();
     const auto gaps = gaps_before(all[r].t);

@@ -76,9 +76,8 @@ Rows shift_rows(const Run& run, const FitOptions& options, bool logarithms, doub
   return rows;
 }
 
-std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all,
-                                         const std::vector<Rows>& rows, const FitOptions& options,
-                                         bool logarithms) {
+std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std::vector<Rows>& rows,
+                                         const FitOptions& options, bool logarithms) {
   std::vector<ObservedRun> runs;
   std::vector<double> speeds;
   for (std::size_t r = 0; r < all.size(); ++r) {

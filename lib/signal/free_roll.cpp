@@ -28,15 +28,16 @@ struct Chain {
   double duration = 0, fastest = 0, lost = 0;  ///< share of its speed that it loses
 };
 
-template <std::size_t P>
+template <Quantity of>
 class Search {
+  static constexpr bool positions = of == Quantity::x;
+
  public:
-  Search(std::span<const Sample> samples, double noise, bool positions)
-      : samples_(samples), noise_(noise), positions_(positions),
-        joints_(samples, noise, positions) {
-    const auto joints = best_partition<P>(samples, noise);
+  Search(std::span<const Sample> samples, double noise)
+      : samples_(samples), noise_(noise), joints_(samples, noise) {
+    const auto joints = best_partition<most_coefficients(of)>(samples, noise);
     for (std::size_t i = 1; i < joints.size(); ++i)
-      pieces_.emplace_back(samples, joints[i - 1], joints[i], noise, positions);
+      pieces_.emplace_back(samples, joints[i - 1], joints[i], noise);
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
         if (const auto v = p.v(t); !p.is_short())
@@ -68,7 +69,7 @@ class Search {
   std::vector<Chain> rolls() const {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const Piece<P>& p = pieces_[i];
+      const Piece<of>& p = pieces_[i];
       const auto a = p.a(p.middle());
       if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
@@ -88,30 +89,30 @@ class Search {
   }
 
   /// Of noise alone, a piece in some thousand would.
-  bool stands_out(const Piece<P>& a, const Piece<P>& b) const {
-    if (!positions_) return std::abs(a.v(a.from).value) > 5 * noise_;
-    const auto way = [&](const Piece<P>& in, double t) {
+  bool stands_out(const Piece<of>& a, const Piece<of>& b) const {
+    if (!positions) return std::abs(a.v(a.from).value) > 5 * noise_;
+    const auto way = [&](const Piece<of>& in, double t) {
       return std::abs(in.y(t).value - a.y(a.from).value);
     };
     return std::max({way(b, b.to), way(a, a.to), way(a, a.middle())}) > 12 * noise_;
   }
   /// Whether the body slows down, or turns and comes back.
-  bool is_roll(const Piece<P>& p) const {
+  bool is_roll(const Piece<of>& p) const {
     const auto v0 = p.v(p.from), v1 = p.v(p.to), v = p.v(p.middle()), a = p.a(p.middle());
     if (!(std::abs(a.value) > 4 * a.error)) return false;
     if (v0.value * v1.value < 0 && v0.is_known() && comes_back(p, sign(a.value)))
       return v0.value * a.value < 0 && std::abs(v1.value) < 1.1 * std::abs(v0.value);
     return v.value * a.value < 0 && v.is_known() && std::abs(v.value) > 0.03 * fastest_;
   }
-  bool comes_back(const Piece<P>& p, double way) const {
+  bool comes_back(const Piece<of>& p, double way) const {
     const auto v = p.v(p.to);
     if (!v.is_known()) return false;
-    if (!positions_) return v.value * way > 0.15 * fastest_;
+    if (!positions) return v.value * way > 0.15 * fastest_;
     return v.value * way > 0.03 * fastest_ && stands_out(p, p);
   }
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
-  bool continues(const Piece<P>& a, const Piece<P>& b) const {
+  bool continues(const Piece<of>& a, const Piece<of>& b) const {
     if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
@@ -135,7 +136,7 @@ class Search {
   }
 
   FreeRoll::End end_of(const Chain& c) const {
-    const Piece<P>& last = pieces_[c.last];
+    const Piece<of>& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto v = last.v(last.to);
     const auto back = last.v(last.middle());
@@ -147,23 +148,23 @@ class Search {
 
   /// The samples that belong to a roll whatever their noise.
   FreeRoll kept(const Chain& c) const {
-    const Piece<P>&first = pieces_[c.first], &last = pieces_[c.last];
+    const Piece<of>&first = pieces_[c.first], &last = pieces_[c.last];
     Stretch s{first.begin, last.end};
     FreeRoll::End how = end_of(c);
     double sudden = INFINITY;  // RSS of an end with a jump
     if (s.begin > 0) {
-      const Piece<P>& before = pieces_[c.first - 1];
+      const Piece<of>& before = pieces_[c.first - 1];
       const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);
       s.begin = before.begin + joints_.inner(cost, before.size(), first.size() / 3, 1);
       s.begin = std::max(s.begin, first.end - joints_.agreeing(first.end - 1, first.begin));
       // A speed is made of positions on either side of its time, also of one before the joint.
       const double begin = samples_[s.begin].t,
-                   joint = positions_ ? std::midpoint(samples_[s.begin - 1].t, begin) : begin,
+                   joint = positions ? std::midpoint(samples_[s.begin - 1].t, begin) : begin,
                    t = joint + std::max(unseen(first, begin), unseen_push(before, first));
       while (samples_[s.begin].t < std::min(t, first.to)) ++s.begin;
     }
     if (s.end < samples_.size()) {
-      const Piece<P>& next = pieces_[c.last + 1];
+      const Piece<of>& next = pieces_[c.last + 1];
       const auto cost = joints_.costs(last.begin, last.order, next.order, next.end);
       sudden = *std::min_element(cost.begin(), cost.end());
       s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
@@ -177,7 +178,7 @@ class Search {
     }
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint.
-    const std::size_t spare = std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25);
+    const std::size_t spare = std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25);
     if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
     // A step of rounded readings tells the place of the body; amid equal ones their errors cancel.
@@ -195,7 +196,7 @@ class Search {
   /// Of a roll that is slow at its end: how it ends, and where. `sudden`: RSS of an end with a
   /// jump.
   FreeRoll::End slow_end(const Chain& c, FreeRoll::End how, double sudden, Stretch& s) const {
-    const Piece<P>& last = pieces_[c.last];
+    const Piece<of>& last = pieces_[c.last];
     const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
     const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
     if (rss > sudden + five_sigma) how = FreeRoll::End::is_ended;
@@ -204,7 +205,7 @@ class Search {
     const std::size_t before = std::max(c.first + 1, c.last) - 1,
                       begin = std::max(s.begin, pieces_[before].begin);
     double any = five_sigma;  // RSS of what agrees with the readings as well as the pieces do
-    for (const Piece<P>& p : std::span(pieces_).subspan(before))
+    for (const Piece<of>& p : std::span(pieces_).subspan(before))
       if (p.end <= end) any += p.rss();
     const double by_itself = joints_.before_stop(begin, last.end, end).second;
     const auto [hand, by_hand] = joints_.before_hand(begin, last.end, end);
@@ -215,26 +216,24 @@ class Search {
 
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
   /// back, within T deviates from the sudden change by v T/8 at most.
-  double unseen(const Piece<P>& p, double t) const {
-    const double time = positions_ ? 12 * noise_ / std::abs(p.v(t).value) : 0;
+  double unseen(const Piece<of>& p, double t) const {
+    const double time = positions ? 12 * noise_ / std::abs(p.v(t).value) : 0;
     return std::min(time, p.duration() / 4);
   }
 
   /// The same for the end of a push of the duration T, whose force fades: its speed is
   /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
-  double unseen_push(const Piece<P>& push, const Piece<P>& roll) const {
+  double unseen_push(const Piece<of>& push, const Piece<of>& roll) const {
     if (!push.a(push.middle()).is_known()) return 0;
     const double v = std::abs(roll.v(roll.from).value), T = push.duration(), share = 2 * noise_ / v;
-    const double s =
-        positions_ ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
+    const double s = positions ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
     return std::min({s, T / 2, roll.duration() / 8});
   }
 
   std::span<const Sample> samples_;
   double noise_, fastest_ = 0;
-  bool positions_;
-  Joints<P> joints_;
-  std::vector<Piece<P>> pieces_;
+  Joints<of> joints_;
+  std::vector<Piece<of>> pieces_;
 };
 
 /// The means of t and y over consecutive blocks of `size` samples, from those of the first sample
@@ -281,8 +280,8 @@ FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t 
       take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
   const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
-  const auto found =
-      positions ? Search<4>(samples, noise, true).roll() : Search<3>(samples, noise, false).roll();
+  const auto found = positions ? Search<Quantity::x>(samples, noise).roll()
+                               : Search<Quantity::v>(samples, noise).roll();
   if (!found) {
     const auto [low, high] = std::ranges::minmax(y);
     fail(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run as smooth pieces with sudden changes between them: the best partition, a piece, and where
-// the joint between two pieces may lie. The pieces are polynomials of up to P coefficients.
+// the joint between two pieces may lie. The pieces are polynomials.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/quantity.h"
 #include "signal/polynomial.h"
 #include "signal/windows.h"
 
 namespace rolling {
+
+/// The coefficients that a piece of positions or of speeds may have.
+constexpr std::size_t most_coefficients(Quantity of) { return of == Quantity::x ? 4 : 3; }
 
 /// The cost of a piece of n samples in all and the number of its coefficients: RSS over the
 /// variance of the noise, and a penalty that grows with its free numbers, 1.5 ln n for each
@@ -54,22 +58,22 @@ std::vector<std::size_t> best_partition(std::span<const Sample> samples, double 
 }
 
 /// The samples [begin, end) and their polynomial, with as many coefficients as they are worth.
-template <std::size_t P>
+template <Quantity of>
 class Piece {
+  static constexpr std::size_t P = most_coefficients(of), speed = of == Quantity::x ? 1 : 0;
+
  public:
   /// `noise` is the standard deviation of the samples.
-  Piece(std::span<const Sample> samples, std::size_t first, std::size_t last, double noise,
-        bool positions)
-      : begin(first), end(last), from(samples[first].t), to(samples[last - 1].t), noise_(noise),
-        speed_(positions ? 1 : 0) {
+  Piece(std::span<const Sample> samples, std::size_t first, std::size_t last, double noise)
+      : begin(first), end(last), from(samples[first].t), to(samples[last - 1].t), noise_(noise) {
     for (const Sample& s : samples.subspan(begin, end - begin))
       fit_.add(s.t - middle(), s.y / noise_);
     order = cost_of(fit_, samples.size()).second;
   }
   using Value = typename Polynomial<P>::Estimate;
   Value y(double t) const { return derivative(0, t); }
-  Value v(double t) const { return derivative(speed_, t); }
-  Value a(double t) const { return derivative(speed_ + 1, t); }
+  Value v(double t) const { return derivative(speed, t); }
+  Value a(double t) const { return derivative(speed + 1, t); }
   double rss() const { return fit_.rss(order); }
   double middle() const { return std::midpoint(from, to); }
   double duration() const { return to - from; }
@@ -88,16 +92,17 @@ class Piece {
 
   Polynomial<P> fit_;
   double noise_;
-  std::size_t speed_;  // which derivative of the samples is the speed
 };
 
-/// The joints of samples of this noise, which are polynomials of up to P coefficients on either
-/// side. Each RSS is in units of the variance of the noise.
-template <std::size_t P>
+/// The joints of samples of this noise, which are polynomials on either side. Each RSS is in units
+/// of the variance of the noise.
+template <Quantity of>
 class Joints {
+  static constexpr std::size_t P = most_coefficients(of);
+  static constexpr bool positions = of == Quantity::x;
+
  public:
-  Joints(std::span<const Sample> samples, double noise, bool positions)
-      : samples_(samples), noise_(noise), positions_(positions) {}
+  Joints(std::span<const Sample> samples, double noise) : samples_(samples), noise_(noise) {}
 
   /// The RSS of the samples [begin, end) as two polynomials of these numbers of coefficients, of
   /// which the first has k samples, for each k.
@@ -149,12 +154,12 @@ class Joints {
       Polynomial<P + 1> fit;
       std::array<double, P + 1> row{};
       row[P] = 1;
-      if (positions_) fit.add(row, 0);
+      if (positions) fit.add(row, 0);
       for (std::size_t i = begin; i < end; ++i) {
         const double u = i < joint ? samples_[i].t - stop : 0;
-        row = {1, positions_ ? u * u : u};
+        row = {1, positions ? u * u : u};
         for (std::size_t k = 2; k <= P; ++k) row[k] = row[k - 1] * u;
-        if (positions_) row[P] = i >= joint;
+        if (positions) row[P] = i >= joint;
         fit.add(row, samples_[i].y / noise_);
       }
       return fit.rss();
@@ -199,8 +204,8 @@ class Joints {
                        way = T * (s + std::sin(pi * s) / pi) / 2;
           auto held = row;
           for (std::size_t k = 0; k < P; ++k)
-            held[k] = positions_ ? row[k] + way * slope[k] : share * row[k];
-          held[P] = positions_ && s == 1;
+            held[k] = positions ? row[k] + way * slope[k] : share * row[k];
+          held[P] = positions && s == 1;
           fit.add(held, samples_[i].y / noise_);
         }
         if (fit.rss() < best.second) best = {joint, fit.rss()};
@@ -214,19 +219,18 @@ class Joints {
 
   /// RSS of the samples from `from` to `to`, forwards or backwards, of the first k for each k.
   template <std::size_t Q>
-  std::vector<double> sums(std::size_t from, std::size_t to, auto of) const {
+  std::vector<double> sums(std::size_t from, std::size_t to, auto value) const {
     Polynomial<Q> fit;
     std::vector<double> sums{0};
     for (std::size_t i = from;; i += to > from ? 1 : std::size_t(-1)) {
       fit.add(samples_[i].t - samples_[from].t, samples_[i].y / noise_);
-      sums.push_back(of(fit));
+      sums.push_back(value(fit));
       if (i == to) return sums;
     }
   }
 
   std::span<const Sample> samples_;
   double noise_;
-  bool positions_;
 };
 
 }  // namespace rolling

@@ -2,6 +2,7 @@
 #include "text/number.h"
 
 #include <fmt/compile.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

@@ -59,7 +59,7 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
   options.fit_slope = true;
   for (int k = 0; k < pairs; ++k) {
     const std::vector<Run> runs{rolls::roll(law, slope, 1, noise),
-                                   rolls::roll(law, slope, -1, noise)};
+                                rolls::roll(law, slope, -1, noise)};
     const FitResult r = fit(Route::position, runs, options);
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);

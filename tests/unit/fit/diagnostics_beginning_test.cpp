@@ -114,7 +114,7 @@ TEST_CASE("beginning: noise that is larger at first, or in one run, is no hand",
   int at_first = 0, falling = 0, in_one = 0;
   for (int i = 0; i < 200; ++i) {
     const Run first = with([](int k) { return k < 26 ? 1e-3 : 0; }),
-                 less = with([](int k) { return 3e-3 * (1 - k / 130.0); });
+              less = with([](int k) { return 3e-3 * (1 - k / 130.0); });
     at_first += disturbed_beginning(Route::position, {first}, {}).has_value();
     falling += disturbed_beginning(Route::position, {less}, {}).has_value();
     in_one += disturbed_beginning(Route::position, {even(0), even(0), even(1e-3)}, {}).has_value();

@@ -37,7 +37,7 @@ TEST_CASE("agreement: a run with as many rows as parameters shows no noise", "[f
   FitOptions options;
   options.fit_slope = true;
   std::vector<Run> runs{roll({0.8 * rubber.a, rubber.b}, 1e-3, 1, noise),
-                           roll(rubber, 1e-3, -1, noise)};
+                        roll(rubber, 1e-3, -1, noise)};
   const auto two = fit(Route::position, runs, options);
   runs.push_back(roll(rubber, 1e-3, 1, noise));
   for (auto* column : {&runs[2].t, &runs[2].x}) column->resize(4);

@@ -118,7 +118,7 @@ TEST_CASE("errors: runs with white noise beside that of the filters are compared
   int like = 0, unlike = 0;
   for (int k = 0; k < 50; ++k) {
     const Run one = rounded_speeds(1.87e-3, noise), same = rounded_speeds(1.87e-3, noise),
-                 other = rounded_speeds(2.06e-3, noise);
+              other = rounded_speeds(2.06e-3, noise);
     const auto alike = fit(Route::velocity, {one, same}, {}).agreement,
                apart = fit(Route::velocity, {one, other}, {}).agreement;
     REQUIRE((alike && apart));

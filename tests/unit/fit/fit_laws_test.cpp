@@ -264,7 +264,7 @@ TEST_CASE("laws: through known filters the coefficients are as precise as those 
           "[fit]") {
   for (Made law : {linear, quadratic}) {
     Run raw = roll(law, Route::position, 1e-3),
-           filtered = simulated::shifts(unit, raw.t, raw.x, 5, "x");
+        filtered = simulated::shifts(unit, raw.t, raw.x, 5, "x");
     filtered.body = unit;
     const LawFit by_x = compare_laws(Route::position, {raw}, {}).fits[number[law]],
                  by_D = compare_laws(Route::shift, {filtered}, {}).fits[number[law]];

@@ -17,10 +17,11 @@ namespace {
 
 using Series = std::vector<double>;
 
-const FilterChain chain = {differentiate(Quantity::x, Quantity::v),
-                           smooth_v(5),
-                           differentiate(Quantity::v, Quantity::a),
-                           {Quantity::a, Quantity::D, 0, [](auto, auto y) { return Series(y.begin(), y.end()); }}};
+const FilterChain chain = {
+    differentiate(Quantity::x, Quantity::v),
+    smooth_v(5),
+    differentiate(Quantity::v, Quantity::a),
+    {Quantity::a, Quantity::D, 0, [](auto, auto y) { return Series(y.begin(), y.end()); }}};
 
 /// Noisy positions, and the columns that the chain makes of them.
 Run filtered(int seed, std::size_t n = 60) {

@@ -240,8 +240,8 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
                             return slopes;
                           }};
     };
-    run.filters = {uneven(Quantity::x, Quantity::v), simulated::smooth_v(width), uneven(Quantity::v, Quantity::a),
-                   simulated::shift()};
+    run.filters = {uneven(Quantity::x, Quantity::v), simulated::smooth_v(width),
+                   uneven(Quantity::v, Quantity::a), simulated::shift()};
     run.v = run.filters[1].apply(run.t, run.filters[0].apply(run.t, x));
     run.D = run.filters[2].apply(run.t, run.v);
     for (double& D : run.D) D *= -(1 + body.K) * body.R / body.g;

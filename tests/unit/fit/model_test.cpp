@@ -91,7 +91,7 @@ TEST_CASE(
 TEST_CASE("trajectory: one law for two bodies and two starts; held parameters stay", "[fit]") {
   for (Route route : {Route::velocity, Route::position}) {
     const std::vector<Run> runs{noiseless(cylinder, 5.75e-4, 0.1, 0.5, 4, route),
-                                   noiseless(shell, 5.75e-4, 0.1, 0.8, 3, route)};
+                                noiseless(shell, 5.75e-4, 0.1, 0.8, 3, route)};
     const auto r = fit(route, runs, {});
     CHECK(std::abs(r.a / 5.75e-4 - 1) < 1e-9);
     CHECK(std::abs(r.b - 0.1) < 1e-9);
@@ -245,7 +245,8 @@ TEST_CASE(
   std::vector<double> t, x;
   for (int i = 0; i < 90; ++i)
     if (i % 7 != 3) t.push_back(0.03 * i), x.push_back(truth.x(t.back()));
-  const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(7)};
+  const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v),
+                          simulated::smooth_v(7)};
   const auto v = chain[1].apply(t, chain[0].apply(t, x));
   Run run{};
   run.body = cylinder;

@@ -13,7 +13,7 @@ inline const Body cylinder{1.375, 0.04, 0.5};
 
 /// Positions every 40 ms with noise, down to the stop; way -1 towards falling x.
 inline Run roll(PowerLaw law, double slope, double way, simulated::Noise& noise,
-                   double size = 3e-4) {
+                double size = 3e-4) {
   Run run{};
   run.body = cylinder;
   Body seen = cylinder;

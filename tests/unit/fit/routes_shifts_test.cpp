@@ -33,7 +33,7 @@ std::vector<ObservedRun> observed(const std::vector<Run>& runs, const FitOptions
 TEST_CASE("shift rows: along the motion, v finite and positive, D positive for logarithms",
           "[fit]") {
   const std::vector<Run> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
-                                 run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
+                              run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
   const std::vector<ObservedRun> all = observed(runs, {}, false);
   CHECK(all[0].y == std::vector<double>{3, -1});
   CHECK(all[1].y == std::vector<double>{3, 1});

@@ -64,15 +64,15 @@ inline rolling::LinearFilter differentiate(rolling::Quantity from, rolling::Quan
 }
 /// The last filter of a chain to D, which stands for the acceleration.
 inline rolling::LinearFilter shift() {
-  return {rolling::Quantity::a, rolling::Quantity::D, 0, [](std::span<const double>, std::span<const double> y) {
-            return std::vector<double>(y.begin(), y.end());
+  return {rolling::Quantity::a, rolling::Quantity::D, 0,
+          [](std::span<const double>, std::span<const double> y) {
+    return std::vector<double>(y.begin(), y.end());
           }};
 }
 /// v and D of a run of raw readings, smoothed over `width` speeds and differentiated, by Eq. 11
 /// with A = 1; the filters are known.
 inline rolling::Run shifts(const rolling::Body& body, std::vector<double> t,
-                              std::vector<double> raw, std::size_t width,
-                              const char* source = "v") {
+                           std::vector<double> raw, std::size_t width, const char* source = "v") {
   rolling::Run run{};
   run.shift_of = rolling::ShiftOf{body};
   if (source[0] == 'x') {

@@ -84,7 +84,8 @@ TEST_CASE("noise: as many innovations as the filters leave degrees of freedom", 
   const auto innovations = [](std::size_t rows, std::size_t width) {
     const std::vector<double> at = simulated::times(rows);
     const auto H = std::make_shared<const BandMatrix>(
-        probe(simulated::smooth_v(width), at) * probe(simulated::differentiate(Quantity::x, Quantity::v), at));
+        probe(simulated::smooth_v(width), at) *
+        probe(simulated::differentiate(Quantity::x, Quantity::v), at));
     return Noise({H, H}).informative();
   };
   CHECK(innovations(7, 3) == 2 * 5);

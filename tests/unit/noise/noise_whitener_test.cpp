@@ -45,8 +45,8 @@ TEST_CASE(
     "[fit]") {
   constexpr std::size_t n = 40;
   const auto t = simulated::times(n);
-  const BandMatrix E =
-      probe(simulated::differentiate(Quantity::v, Quantity::a), t) * probe(simulated::smooth_v(7), t);
+  const BandMatrix E = probe(simulated::differentiate(Quantity::v, Quantity::a), t) *
+                       probe(simulated::smooth_v(7), t);
   const auto dense_E = dense(E);
   const Covariance EE(E);
   const double width = static_cast<double>(EE.band),

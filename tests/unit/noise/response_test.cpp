@@ -15,7 +15,8 @@ TEST_CASE(
     "[fit]") {
   for (std::size_t n : {3u, 4u, 9u, 40u}) {
     const auto t = simulated::times(n);
-    const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v), simulated::smooth_v(7),
+    const FilterChain chain{simulated::differentiate(Quantity::x, Quantity::v),
+                            simulated::smooth_v(7),
                             simulated::differentiate(Quantity::v, Quantity::a)};
     const auto response = response_of(chain, t);
     CHECK(response.source == Quantity::x);
@@ -52,9 +53,10 @@ TEST_CASE("response: every row is found whole, as wide as it may be", "[fit]") {
 }
 
 TEST_CASE("response: noise from two raw columns is refused", "[fit]") {
-  CHECK_THROWS_AS(response_of({simulated::smooth_v(3), simulated::differentiate(Quantity::x, Quantity::a)},
-                              simulated::times(9)),
-                  Error);
+  CHECK_THROWS_AS(
+      response_of({simulated::smooth_v(3), simulated::differentiate(Quantity::x, Quantity::a)},
+                  simulated::times(9)),
+      Error);
 }
 
 TEST_CASE("response: a filter that does the same everywhere is probed in a short run", "[fit]") {
@@ -69,15 +71,15 @@ TEST_CASE("response: a filter that does the same everywhere is probed in a short
 TEST_CASE("response: of equal steps few rows are probed; a lost row changes its neighbours",
           "[fit]") {
   std::size_t probed = 0;
-  const LinearFilter slopes{Quantity::x, Quantity::v, 1, [&](std::span<const double> t, std::span<const double> x) {
-                              probed = t.size();
-                              std::vector<double> v(x.size());
-                              for (std::size_t i = 0; i < x.size(); ++i) {
-                                const std::size_t k = std::min(i + 1, x.size() - 1),
-                                                  j = std::max<std::size_t>(i, 1) - 1;
-                                v[i] = (x[k] - x[j]) / (t[k] - t[j]);
-                              }
-                              return v;
+  const LinearFilter slopes{Quantity::x, Quantity::v, 1,
+                            [&](std::span<const double> t, std::span<const double> x) {
+    probed = t.size();
+    std::vector<double> v(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const std::size_t k = std::min(i + 1, x.size() - 1), j = std::max<std::size_t>(i, 1) - 1;
+      v[i] = (x[k] - x[j]) / (t[k] - t[j]);
+    }
+    return v;
                             }};
   std::vector<double> t, x;
   for (int i = 0; i < 400; ++i) {
@@ -127,8 +129,9 @@ TEST_CASE("response: filters one after another are the product of their matrices
 }
 
 TEST_CASE("response: a filter that does not give a value for each row is refused", "[fit]") {
-  const LinearFilter short_one{Quantity::v, Quantity::v, 1, [](std::span<const double>, std::span<const double> y) {
-                                 return std::vector<double>(y.begin() + 1, y.end());
+  const LinearFilter short_one{Quantity::v, Quantity::v, 1,
+                               [](std::span<const double>, std::span<const double> y) {
+    return std::vector<double>(y.begin() + 1, y.end());
                                }};
   CHECK_THROWS_AS(probe(short_one, simulated::times(9)), Error);
 }
