@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/fit_runs.h"
+#include "report/fit_runs.h"
 #include "cli/law_file.h"
 #include "cli/history.h"
 #include "fit/fit.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/tool.h"
-#include "signal/selection.h"
+#include "selection/selection.h"
 #include "signal/method.h"
 #include "text/filter.h"
 

@@ -13,8 +13,8 @@
 #include "motion/scene.h"
 #include "sensor/sonar.h"
 #include "signal/method.h"
-#include "signal/free_roll.h"
-#include "signal/readings.h"
+#include "selection/free_roll.h"
+#include "selection/readings.h"
 #include "unit/fit/simulated.h"
 
 #include <fmt/format.h>

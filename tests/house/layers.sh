@@ -9,6 +9,7 @@ declare -A may=(
   [base]=''
   [text]='base'
   [signal]='base'
+  [selection]='base signal'
   [ode]='base'
   [contact]='base'
   [motion]='base ode contact'
@@ -18,6 +19,7 @@ declare -A may=(
   [fit]='base contact motion noise least_squares statistics'
   [sensor]='base motion'
   [cli]='base text contact signal noise statistics fit'  # signal and noise: what a `##` line says becomes a filter of the noise
+  [report]='base text contact selection statistics fit cli'
 )
 wrong=0 files=0
 complain() { echo "$*" && wrong=1; }
@@ -39,7 +41,7 @@ for room in lib/*/; do
       *) grep -qE '# *include <CLI/' "$file" && complain "$file: only lib/cli knows CLI11" ;;
     esac
     case $room in
-      text | cli) ;;
+      text | cli | report) ;;
       *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" &&
         complain "$file: only lib/text and lib/cli see files" ;;
     esac

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/free_roll.h"
+#include "selection/free_roll.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/readings.h"
+#include "selection/readings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "base/grid.h"
 #include "base/median.h"
-#include "signal/polynomial.h"
+#include "selection/polynomial.h"
 
 namespace rolling {
 namespace {

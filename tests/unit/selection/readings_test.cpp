@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/readings.h"
+#include "selection/readings.h"
 
 #include <cmath>
 #include <cstdio>

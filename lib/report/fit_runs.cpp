@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/fit_runs.h"
+#include "report/fit_runs.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/history.h"
-#include "signal/readings.h"
+#include "selection/readings.h"
 
 namespace rolling {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "signal/free_roll.h"
-#include "signal/outliers.h"
+#include "selection/free_roll.h"
+#include "selection/outliers.h"
 
 namespace rolling {
 

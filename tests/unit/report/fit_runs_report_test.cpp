@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/fit_runs.h"
+#include "report/fit_runs.h"
 
 #include "unit/catch.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/outliers.h"
+#include "selection/outliers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/grid.h"
-#include "signal/polynomial.h"
+#include "selection/polynomial.h"
 
 namespace rolling {
 namespace {

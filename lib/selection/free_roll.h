@@ -28,9 +28,9 @@ struct FreeRoll {
 /// The free roll in a run of positions or speeds of at least 10 samples.
 ///
 /// A run is a chain of smooth motions with sudden changes between them: the best partition into
-/// pieces (signal/pieces.h), of samples that are on the motion of their neighbours
-/// (signal/outliers.h). Rest, push, hold, roll, hand, brake, wall and way back are all pieces with
-/// a speed and an acceleration. A reading that a logger held for several rows counts once.
+/// pieces (selection/pieces.h), of samples that are on the motion of their neighbours
+/// (selection/outliers.h). Rest, push, hold, roll, hand, brake, wall and way back are all pieces
+/// with a speed and an acceleration. A reading that a logger held for several rows counts once.
 ///
 /// Pieces that slow down, one after the other, are one roll if neither speed nor acceleration jumps
 /// between them: a law D(v) is continuous. On a slope, a body that turns goes on with an

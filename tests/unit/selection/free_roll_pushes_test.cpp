@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What pushes, holds, hands and sensors do to the ends of the free roll.
-#include "signal/free_roll.h"
+#include "selection/free_roll.h"
 
 #include <algorithm>
 #include <cmath>

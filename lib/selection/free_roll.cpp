@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/free_roll.h"
+#include "selection/free_roll.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/grid.h"
-#include "signal/outliers.h"
-#include "signal/pieces.h"
-#include "signal/readings.h"
+#include "selection/outliers.h"
+#include "selection/pieces.h"
+#include "selection/readings.h"
 
 namespace rolling {
 namespace {

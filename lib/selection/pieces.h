@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/quantity.h"
-#include "signal/polynomial.h"
+#include "selection/polynomial.h"
 #include "signal/windows.h"
 
 namespace rolling {

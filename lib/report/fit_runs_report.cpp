@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/fit_runs.h"
+#include "report/fit_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/grid.h"
-#include "signal/readings.h"
+#include "selection/readings.h"
 
 namespace rolling {
 

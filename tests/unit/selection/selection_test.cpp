@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "signal/selection.h"
+#include "selection/selection.h"
 
 #include <algorithm>
 #include <cmath>
