@@ -44,8 +44,9 @@ root=$(cd "$(dirname "$0")/.." && pwd) || exit 2
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 trap 'exit 130' INT TERM
-# A machine SLOWER times slower, as an emulator, has so much more time for each test, and leaves the
-# unit tests out that fit [many] rows.
+# A case has 60 seconds of a processor, since a busy machine is not its fault, and ten minutes of the
+# clock, in case it waits for something. A machine SLOWER times slower, as an emulator, has so much
+# more time for each test, and leaves out the unit tests that fit [many] rows.
 slower=${SLOWER:-1}
 export PATH="$root/bin:$PATH" TMPDIR="$scratch"
 
@@ -78,8 +79,8 @@ run_case() {  # the path of a case, as plan_cases left it
   [ ! -f "$1.status" ] || wanted=$(<"$1.status")
   [ ! -f "$1.stdout" ] || expected=$1.stdout
   [ ! -f "$1.stderr" ] || errors=$1.stderr
-  (cd "$1" && TMPDIR=$2 exec timeout "$((60 * slower))" bash "$1.command") \
-    </dev/null >"$2/out" 2>"$2/err"
+  (cd "$1" && ulimit -t "$((60 * slower))" && TMPDIR=$2 exec timeout "$((600 * slower))" \
+    bash "$1.command") </dev/null >"$2/out" 2>"$2/err"
   status=$?
   {
     [ "$status" = "$wanted" ] || echo "exit $status instead of $wanted"
