@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "text/delimiters.h"
@@ -43,12 +42,6 @@ std::string take_run(std::string_view& name) {
 }
 
 }  // namespace
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 std::string short_name(std::string_view name) {
   const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });

@@ -38,9 +38,6 @@ std::string to_text(const Column&);
 /// on if that name exists too.
 std::string free_name(const std::vector<Column>&, std::string name);
 
-/// In small letters.
-std::string lower(std::string_view text);
-
 /// Whether a column is t, x, v, a or D.
 bool is_known(const Column&);
 

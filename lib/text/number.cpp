@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #ifndef __cpp_lib_to_chars
@@ -56,6 +57,12 @@ char* write_number(char* to, double value, int digits) {
 
 char* write_shortest(char* to, double value) {
   return fmt::format_to(to, FMT_COMPILE("{}"), value);
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
 }
 
 std::string replace_all(

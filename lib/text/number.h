@@ -44,6 +44,9 @@ inline constexpr std::size_t longest_number = 32;
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
 
+/// In small letters.
+std::string lower(std::string_view text);
+
 /// The text, in which the second text of a pair replaces each occurrence of the first; where two
 /// pairs begin at a place, the one that is listed first.
 std::string replace_all(std::string_view text,

@@ -57,5 +57,23 @@ for file in cmd/*.cpp; do
   grep -qE '# *include <(CLI/|gsl/)' "$file" &&
     complain "$file: a command uses CLI11 and GSL through lib/"
 done
+# No two sources of a module call each other in a loop: tsort puts them in order, or names those of
+# a loop. The parts of the class Tool do.
+for module in lib/*/; do
+  [ "$module" != lib/cli/ ] || continue
+  set -- build/"$module"*.o
+  [ -e "$1" ] || continue
+  loop=$(nm -A "$@" | awk '
+    { split($1, file, ":") }
+    $2 ~ /^[TR]$/ { home[$3] = file[1] }
+    $2 == "U" { calls[file[1], $3] }
+    END {
+      for (call in calls) {
+        split(call, part, SUBSEP)
+        if (part[2] in home) print part[1], home[part[2]]
+      }
+    }' | tsort 2>&1 >/dev/null)
+  [ -z "$loop" ] || complain "$loop"
+done
 [ "$files" -gt 20 ] || complain "only $files files were looked at"
 exit $wrong
