@@ -44,7 +44,7 @@ for goal; do
     check-clang) need clang-14 ;;
     check-libcxx)
       n=${LIBCXX:-14}
-      need clang-$n libc++-$n-dev libc++abi-$n-dev ;;
+      need clang-$n libc++-$n-dev libc++abi-$n-dev libfast-float-dev ;;
     check-arm64) need g++-aarch64-linux-gnu qemu-user ;;
   esac
 done
@@ -73,7 +73,7 @@ elsewhere() {
       printf "  %-8s %s%s\n", order[i], how[order[i]], names[order[i]] }'
 g++ gcc-c++,make gcc,make g++,make,bash make,bash gmake,bash
 libgsl-dev gsl-devel gsl gsl-dev gsl gsl
-libfmt-dev fmt-devel fmt fmt-dev fmt libfmt
+libfmt-dev fmt-devel fmt fmt-dev fmt,fast_float libfmt,fast_float
 libcli11-dev cli11-devel cli11 cli11-dev cli11 cli11
 gnuplot-nox gnuplot gnuplot gnuplot gnuplot gnuplot
 mandoc mandoc mandoc mandoc mandoc mandoc

@@ -40,8 +40,8 @@ needs lint 'clang-format-14 clang-tidy-14 cppcheck mandoc shellcheck'
 needs check 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
 needs check-arm64 'busybox catch2 g++-aarch64-linux-gnu gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk qemu-user xz-utils'
 needs check-clang 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
-needs check-libcxx 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev libc++-14-dev libc++abi-14-dev locales mandoc mawk original-awk xz-utils'
-LIBCXX=19 needs check-libcxx 'busybox catch2 clang-19 gawk gnuplot-nox libboost-dev libc++-19-dev libc++abi-19-dev locales mandoc mawk original-awk xz-utils'
+needs check-libcxx 'busybox catch2 clang-14 gawk gnuplot-nox libboost-dev libc++-14-dev libc++abi-14-dev libfast-float-dev locales mandoc mawk original-awk xz-utils'
+LIBCXX=19 needs check-libcxx 'busybox catch2 clang-19 gawk gnuplot-nox libboost-dev libc++-19-dev libc++abi-19-dev libfast-float-dev locales mandoc mawk original-awk xz-utils'
 needs sanitize 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk valgrind xz-utils'
 
 stand_in dpkg-query 'echo install ok installed'
@@ -61,8 +61,8 @@ without() {  # WHAT PATH: the script gives up and says how to go on
     'Fedora   dnf install gcc-c++ make gsl-devel fmt-devel cli11-devel' \
     'Arch     pacman -S gcc make gsl fmt cli11' \
     'Alpine   apk add g++ make bash gsl-dev fmt-dev cli11-dev' \
-    'macOS    brew install make bash gsl fmt cli11' \
-    'FreeBSD  pkg install gmake bash gsl libfmt cli11'; do
+    'macOS    brew install make bash gsl fmt fast_float cli11' \
+    'FreeBSD  pkg install gmake bash gsl libfmt fast_float cli11'; do
     grep -qxF "  $line" <<<"$said" || complain "setup without $1 does not say '$line': $said"
   done
   [ "$(tail -n 1 <<<"$said")" = 'then: make table1' ] || complain "setup without $1 ends with $said"
