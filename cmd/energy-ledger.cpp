@@ -27,16 +27,24 @@ constexpr Computed<double (*)(const Moment&)> quantities[] = {
     {"p", "N s", [](const Moment& m) { return m.now.p(); }},
     {"L", "N m s", [](const Moment& m) { return m.now.L(); }},
     {"A", "", [](const Moment& m) { return m.now.A(); }},
+    {"J", "kg m^2", [](const Moment& m) { return m.now.J(); }},
     {"D", "m", [](const Moment& m) { return m.now.D(); }},
     {"sigma_D", "m", [](const Moment& m) { return m.law.sigma(m.now.v()); }},
     {"F_N", "N", [](const Moment& m) { return m.now.F_N(); }},
     {"F_H", "N", [](const Moment& m) { return m.now.F_H(); }},
+    {"F_S", "N", [](const Moment& m) { return m.now.F_S(); }},
+    {"F_G", "N", [](const Moment& m) { return m.now.F_G(); }},
     {"tau_N", "N m", [](const Moment& m) { return m.now.tau_N(); }},
     {"tau_H", "N m", [](const Moment& m) { return m.now.tau_H(); }},
     {"vP_H", "m/s", [](const Moment& m) { return m.now.vP_H(); }},
     {"vP_V", "m/s", [](const Moment& m) { return m.now.vP_V(); }},
+    {"I_pH", "N", [](const Moment& m) { return m.now.I_pH(); }},
+    {"I_pN", "N", [](const Moment& m) { return m.now.I_pN(); }},
+    {"I_LH", "N m", [](const Moment& m) { return m.now.I_LH(); }},
+    {"I_LN", "N m", [](const Moment& m) { return m.now.I_LN(); }},
     {"E_trans", "J", [](const Moment& m) { return m.now.E_trans(); }},
     {"E_rot", "J", [](const Moment& m) { return m.now.E_rot(); }},
+    {"E", "J", [](const Moment& m) { return m.now.E(); }},
     {"I_E1", "W", [](const Moment& m) { return m.now.I_E1(); }},
     {"I_E2", "W", [](const Moment& m) { return m.now.I_E2(); }},
     {"P_T1", "W", [](const Moment& m) { return m.now.P_T1(); }},
@@ -46,10 +54,18 @@ constexpr Computed<double (*)(const Moment&)> quantities[] = {
     {"P_T3", "W", [](const Moment& m) { return m.now.P_T3(); }},
     {"P_T4", "W", [](const Moment& m) { return m.now.P_T4(); }},
     {"P_diss", "W", [](const Moment& m) { return m.now.P_diss(); }},
-    {"E_diss", "J", [](const Moment& m) { return m.balance.dissipated(); }},
-    {"W_g", "J", [](const Moment& m) { return m.balance.lifted(); }},
+    {"E_diss", "J", [](const Moment& m) { return m.balance.energy.to_mat(); }},
+    {"W_g", "J", [](const Moment& m) { return m.balance.energy.to_gravity(); }},
     {"Pi_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
+    {"I_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
+    {"S", "J/K", [](const Moment& m) { return m.balance.energy.to_mat() / m.temperature; }},
+    {"E_tr", "J", [](const Moment& m) { return 0 - m.balance.energy.to_mat(); }},
+    {"p_tr", "N s", [](const Moment& m) { return 0 - m.balance.p.to_mat(); }},
+    {"L_trH", "N m s", [](const Moment& m) { return m.balance.L_H(); }},
+    {"L_trN", "N m s", [](const Moment& m) { return m.balance.L_N(); }},
 };
+constexpr std::string_view of_temperature[] = {"Pi_S", "I_S", "S"};
+constexpr std::string_view of_momenta[] = {"p_tr", "L_trH", "L_trN"};
 
 /// What the options and the scene describe.
 struct Task {
@@ -59,6 +75,7 @@ struct Task {
   bool uses_law = false;      ///< instead of the column D
   bool law_of_scene = false;  ///< it uses the law because the first run has no column D
   bool summary = false;
+  bool momenta = false;          ///< they are balanced too
   double tolerance = not_given;  ///< NaN without --check
   std::size_t t, v, D;           ///< slots of the reader
 };
@@ -66,21 +83,27 @@ struct Task {
 /// Checks the balance of a run.
 void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
   std::string beyond;
-  if (!(std::abs(balance.closure()) <= tolerance))
-    beyond = fmt::format("closure {:.4g}", balance.closure());
-  if (!(balance.imbalance() <= tolerance))
-    add_item(beyond, fmt::format("imbalance {:.4g} at t = {:.6g} s", balance.imbalance(),
-                                 balance.time_of_imbalance()));
+  const auto ask = [&](const char* name, double deviation, const std::string& when) {
+    if (std::abs(deviation) > tolerance)
+      add_item(beyond, fmt::format("{} {:.4g}{}", name, deviation, when));
+  };
+  ask("closure", balance.energy.closure(), "");
+  ask("imbalance", balance.energy.imbalance(),
+      fmt::format(" at t = {:.6g} s", balance.energy.time_of_imbalance()));
+  ask("closure_p", balance.p.closure(), "");
+  ask("closure_L", balance.L.closure(), "");
   if (!beyond.empty())
     tool.object(run, fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
 }
 
 /// Balances the runs of `rows`, which are the reader or a filter behind it: of_row(now, balance) is
-/// called for each row, of_run(balance) at the end of each run that has rows.
-void balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of_row,
-                  auto&& of_run) {
+/// called for each row, of_run(balance) at the end of each run that has rows. Returns the exit
+/// status: 2 if a closure is asked for and a run has none.
+int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of_row,
+                 auto&& of_run) {
   std::size_t beyond = 0;
   bool tests_nothing = false;
+  bool without_closure = false;
   while (rows.next_run()) {
     if (task.law_of_scene && in.find("D"))
       fail<InputError>(
@@ -92,7 +115,7 @@ void balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& o
       const auto others = other_body(history_of(in.history(), {}).shift_of, task.body);
       if (!others.empty()) tool.warn(in.run_name(), "D was computed with " + others);
     }
-    Balance balance(task.body);
+    Balance balance(task.body, task.momenta);
     while (rows.next()) {
       const double v = in[task.v];
       if (task.uses_law) task.law.law.check_speed(v);
@@ -102,8 +125,14 @@ void balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& o
       beyond += std::abs(D) > task.body.R;
       of_row(now, balance);
     }
-    if (balance.empty()) continue;
+    if (balance.energy.empty()) continue;
     of_run(balance);
+    if ((task.summary || tool.checks) && std::isnan(balance.energy.closure())) {
+      tool.say(in.run_name(),
+               "the body has as much energy at the end of the run as at its start: there is no "
+               "closure");
+      without_closure = true;
+    }
     if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
   }
   if (beyond > 0)
@@ -113,22 +142,29 @@ void balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& o
     tool.warn(
         "D was computed from the derivative of the same v: the balance compares v with itself "
         "and tests no law; give one with --law, or with -a and -b");
+  return without_closure ? 2 : 0;
 }
 
-/// The table of --summary: a row for each run.
-void write_summary(Tool& tool, Reader& in, const Task& task) {
+/// The table of --summary: a row for each run, with a blank cell for a closure that it does not
+/// have.
+int write_summary(Tool& tool, Reader& in, const Task& task) {
   const bool inclined = task.body.slope != 0;
-  std::vector<Column> columns = {
-      {"E_start", "J"}, {"E_end", "J"}, {"E_diss", "J"}, {"closure", ""}, {"imbalance", ""}};
+  std::vector<Column> columns = {{"E_start", "J"}, {"E_end", "J"},    {"E_diss", "J"},
+                                 {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
+                                 {"closure_L", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
   tool.out.names(columns);
-  balance_runs(
+  return balance_runs(
       tool, in, task, in, [](const Ledger&, const Balance&) {},
       [&](const Balance& balance) {
-    for (const double cell : {balance.start(), balance.end(), balance.dissipated(),
-                              balance.closure(), balance.imbalance()})
-      tool.out.cell(cell);
-    if (inclined) tool.out.cell(balance.lifted());
+    const Account& energy = balance.energy;
+    for (const double cell : {energy.start(), energy.end(), energy.to_mat()}) tool.out.cell(cell);
+    for (const double cell :
+         {energy.closure(), energy.imbalance(), balance.p.closure(), balance.L.closure()}) {
+      if (std::isnan(cell)) tool.out.cell("");
+      else tool.out.cell(cell);
+    }
+    if (inclined) tool.out.cell(energy.to_gravity());
     tool.out.end_line();
       });
 }
@@ -164,7 +200,9 @@ int main(int argc, char** argv) {
     const auto is_chosen = [&](std::string_view name) {
       return std::ranges::count(row, name, [](const auto& quantity) { return quantity.name; }) > 0;
     };
-    if (is_chosen("Pi_S") && std::isnan(temperature)) fail("Pi_S needs --temperature");
+    if (const auto name = std::ranges::find_if(of_temperature, is_chosen);
+        name != std::end(of_temperature) && std::isnan(temperature))
+      fail("{} needs --temperature", *name);
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass", "radius", "shape-factor"});
@@ -179,25 +217,26 @@ int main(int argc, char** argv) {
     if (task.uses_law) task.law = read();
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
-    if (task.law_of_scene) task.uses_law = true, task.law = read();
-    task.t = in.need("t"), task.v = in.need("v");
-    task.D = task.uses_law ? task.v : in.need("D");
-    if (task.summary) {
-      write_summary(tool, in, task);
-      return 0;
+    if (task.law_of_scene) {
+      task.uses_law = true;
+      task.law = read();
     }
+    task.t = in.need("t");
+    task.v = in.need("v");
+    task.D = task.uses_law ? task.v : in.need("D");
+    task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
+    if (task.summary) return write_summary(tool, in, task);
     Filter filter(
         in, tool.out,
         fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law.law) : "D",
                     task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
     for (const auto& quantity : row) filter.append(quantity.column());
-    balance_runs(
+    return balance_runs(
         tool, in, task, filter,
         [&](const Ledger& now, const Balance& balance) {
       for (const auto& quantity : row)
         filter.put(quantity.of({now, balance, temperature, task.law}));
         },
         [](const Balance&) {});
-    return 0;
   });
 }

@@ -12,5 +12,5 @@ std::string (*const formatter)(fmt::string_view, fmt::format_args) = fmt::vforma
 template char fmt::detail::decimal_point_impl<char>(fmt::detail::locale_ref);
 template fmt::detail::thousands_sep_result<char> fmt::detail::thousands_sep_impl<char>(
     fmt::detail::locale_ref);
-template fmt::detail::dragonbox::decimal_fp<double>
-fmt::detail::dragonbox::to_decimal<double>(double) noexcept;
+template fmt::detail::dragonbox::decimal_fp<double> fmt::detail::dragonbox::to_decimal<double>(
+    double) noexcept;

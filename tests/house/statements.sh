@@ -20,20 +20,22 @@ says() {
 }
 
 # energy-ledger(1): closure and imbalance of simulated rows.
-says man/energy-ledger.1 'below 3e-7 with a row every 0.01 s, 5e-6 every 0.04 s and 5e-5 every 0.1 s'
+says man/energy-ledger.1 'below 1e-7 with a row every 0.01 s, 4e-6 every 0.04 s and 5e-5 every 0.1 s'
+says man/energy-ledger.1 'those of the momenta below 1e-5, 1e-4 and 7e-4'
 says man/energy-ledger.1 'below 2e-4, 8e-4 and 2e-3 in these scenes with b = -0.3'
 for scene in CF CR SF SR; do
-  while read -r dt limit negative; do
+  while read -r dt limit negative momenta; do
     for law in "" "-b -0.3"; do
       # shellcheck disable=SC2086  # two words
       simulate --scene samples/$scene.toml $law --dt "$dt" |
         energy-ledger --scene samples/$scene.toml ${law:+-a $(of_scene coefficient $scene) $law} --summary |
-        last_of 5 >"$scratch/imbalance"
-      below "imbalance of $scene, dt $dt $law" "$(cat "$scratch/imbalance")" "$([ "$law" ] && echo $negative || echo $limit)"
+        tail -n 1 >"$scratch/row"
+      below "imbalance of $scene, dt $dt $law" "$(last_of 5 <"$scratch/row")" "$([ "$law" ] && echo $negative || echo $limit)"
+      [ "$law" ] || below "closure_p of $scene, dt $dt" "$(last_of 6 <"$scratch/row")" "$momenta"
     done
-  done <<<'0.01 3e-7 2e-4
-0.04 5e-6 8e-4
-0.1 5e-5 2e-3'
+  done <<<'0.01 1e-7 2e-4 1e-5
+0.04 4e-6 8e-4 1e-4
+0.1 5e-5 2e-3 7e-4'
 done
 
 # rolling(7): the law that the first example gives, in words.

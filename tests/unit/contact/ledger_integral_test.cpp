@@ -43,9 +43,31 @@ TEST_CASE("integral: at rest nothing is added", "[contact]") {
   Integral integral;
   integral.push(0, 4);
   integral.push(1, 1);
-  CHECK(integral.push(2, 0) == 3);
-  for (const double t : {3.0, 4.0, 5.0}) CHECK(integral.push(t, 0) == 3);
-  CHECK(integral.push(6, 1) == 3.5);
+  const double at_rest = integral.push(2, 0);
+  for (const double t : {3.0, 4.0, 5.0}) CHECK(integral.push(t, 0) == at_rest);
+  CHECK(integral.push(6, 1) == at_rest + 0.5);
+}
+
+TEST_CASE("integral: the step to rest is exact for any power of the time left", "[contact]") {
+  for (const double power : {-0.4, -1e-12, 0.0, 0.025, 0.27, 1.0, 2.5})
+    for (const double h : {0.25, 1.0, 2.0}) {
+      const auto y = [&](double left) { return 3 * std::pow(left, power); };
+      Integral integral;
+      integral.push(0, y(h + 1));
+      const double before = integral.push(1, y(h));
+      INFO(power << " " << h);
+      CHECK(std::abs(integral.push(1 + h, 0) - before - y(h) * h / (1 + power)) < 1e-14);
+      // On a slope the force does not vanish at rest.
+      Integral inclined(-7);
+      inclined.push(0, y(h + 1) - 7);
+      const double so_far = inclined.push(1, y(h) - 7);
+      CHECK(std::abs(inclined.push(1 + h, -7) - so_far - y(h) * h / (1 + power) + 7 * h) < 1e-13);
+    }
+  // What rises steeply towards rest has no such power: the integral might not exist.
+  Integral rising;
+  rising.push(0, 1);
+  const double before = rising.push(1, 2);
+  CHECK(rising.push(2, 0) == before + 1);
 }
 
 TEST_CASE("integral: a spike up and down again leaves no trace", "[contact]") {
