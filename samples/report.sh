@@ -199,8 +199,8 @@ cat <<'HTML'
 </div><div class="section"><h3>Is the mat level?</h3>
 <p>No floor is level to a millimetre in a metre, and on felt that is 7 % of the shift. A roll in one
 direction hides it: the residuals of its fit are as good as on a level mat. Two rolls in opposite
-directions tell the slope from the law. <i>To discuss:</i> the paper’s two laws on rubber differ by a
-tenth. What slope could make them one law, and which way must each body have rolled?</p>
+directions tell the slope from the law. <i>To discuss:</i> the paper’s bodies all rolled towards the
+sensor. What does a slope do to the difference of their laws?</p>
 HTML
 table "A mat that is not level" "$scratch/table1"
 echo '</div>'

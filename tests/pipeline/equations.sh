@@ -38,9 +38,22 @@ P_T4|P_T4|-vP_V*F_N
 22|I_E1+I_E2|-(K+1)*m*v*a-m*g*sin_*v
 22, P_diss|P_diss|P_T3+P_T4
 E_trans|E_trans|m*v^2/2
-entropy|Pi_S*293|P_diss'
+entropy|Pi_S*293|P_diss
+entropy, mat|I_S|Pi_S
+2|J|K*m*R^2
+14, body|P_T1|-omega*I_LH
+14, leaving|P_R2|omega*I_LN
+15, with p_x|I_E1|vP_H*I_pH
+15, with p_y|I_E2|vP_V*I_pN
+4, out|I_pH|-F_H
+5, out|I_LH+I_LN|-(tau_N+tau_H)
+both forces|F_S^2|F_N^2+F_H^2
+weight|F_G|m*g
+E|E|E_trans+E_rot
+entropy, all|S*293|E_diss
+E_tr|E_tr|-E_diss'
 columns=omega,p,L,A,F_N,F_H,tau_N,tau_H,vP_H,vP_V,E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2
-columns=$columns,P_T3,P_T4,P_diss,E_diss,W_g,Pi_S
+columns=$columns,P_T3,P_T4,P_diss,E_diss,W_g,Pi_S,I_S,S,J,F_S,F_G,I_pH,I_pN,I_LH,I_LN,E,E_tr
 
 # An awk program of the equations. Differences are relative to the larger side; 1 - A, which is all
 # of I_E1, is small beside 1, so the sides of 16 and 17 are compared beside v and v F_H.
@@ -66,8 +79,8 @@ function abs(x) { return x < 0 ? -x : x }
 function compare(name, text, x, y,   size) {
   size = abs(x) > abs(y) ? abs(x) : abs(y)
   if (name == "16" && size < v) size = v
-  if (name == "17" && size < v * abs(F_H)) size = v * abs(F_H)
-  if (name == "4" || name == "3, 5" || name == "22") size += m * g * abs(sin_)
+  if ((name == "17" || name == "15, with p_x") && size < v * abs(F_H)) size = v * abs(F_H)
+  if (name == "4" || name ~ /^(3, 5|5, out)$/ || name == "22") size += m * g * abs(sin_)
   if (!(name in worst)) { order[++n] = name; said[name] = text; worst[name] = 0 }
   if (size > 0 && abs(x - y) / size > worst[name]) worst[name] = abs(x - y) / size
 }
