@@ -57,9 +57,18 @@ build/lib.a: $(call object,$(source))
 # CLI11 runs once, and at -O2 it takes as long to compile as five other sources.
 build/lib/cli/tool_options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 
-build/%.o: %.cpp
+build/%.o: %.cpp build/flags
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+
+# The compiler and its flags: a build with others compiles all again, but `make install` installs
+# what was built.
+flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS)
+build/flags: $(if $(filter install,$(MAKECMDGOALS)),,always)
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(subst ','\'',$(flags))' >$@.new; \
+	  if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+.PHONY: always
 
 # The headers that most sources include are parsed once, which saves a third of the time of a build.
 # Each source includes them all the same: a compiler that is named, CXX=clang++, parses them there.
@@ -69,7 +78,7 @@ common  := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map 
 of_tool := $(call object,$(filter-out %/tool_options.cpp,$(source)) $(wildcard cmd/*.cpp))
 $(of_tool): parsed := -include build/common.h
 $(of_tool): | build/common.h.gch
-build/common.h.gch:
+build/common.h.gch: build/flags
 	@mkdir -p $(@D)
 	printf '#include %s\n' $(common:%='%') >build/common.h
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/common.h

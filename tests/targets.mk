@@ -19,7 +19,7 @@ ifneq ($(common),)
 $(of_test): parsed := -include build/catch.h
 $(of_test): | build/catch.h.gch
 build/catch.h.gch: override CPPFLAGS += -Itests
-build/catch.h.gch: tests/unit/catch.h
+build/catch.h.gch: tests/unit/catch.h build/flags
 	@mkdir -p $(@D)
 	printf '#include %s\n' $(common:%='%') '<random>' '"unit/catch.h"' >build/catch.h
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/catch.h

@@ -50,6 +50,14 @@ said=$(PATH="$scratch:$PATH" cmd/install/setup.sh check 2>&1) && [ -z "$said" ] 
 said=$(make -n setup table1 2>/dev/null | head -n 1)
 [ "$said" = 'cmd/install/setup.sh table1' ] || complain "make setup table1 begins with $said"
 
+# Other flags compile again, the same do not.
+mkdir -p "$scratch/flags/lib/one" "$scratch/flags/tests"
+cp Makefile "$scratch/flags" && cp tests/targets.mk "$scratch/flags/tests"
+echo 'int one();' >"$scratch/flags/lib/one/one.cpp"
+compiled() { (cd "$scratch/flags" && make CXX=g++ build/lib/one/one.o "$@" 2>&1) | grep -c ' -c '; }
+said="$(compiled) $(compiled) $(compiled CXXFLAGS=-O1) $(compiled CXXFLAGS=-O1) $(compiled)"
+[ "$said" = '1 0 1 0 1' ] || complain "compilations by flags: $said"
+
 # A path with nothing but what the script calls.
 mkdir "$scratch/bare" &&
   ln -s "$(command -v grep)" "$(command -v bash)" "$(command -v awk)" "$(command -v tr)" "$(command -v cut)" "$scratch/bare"
