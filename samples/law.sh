@@ -10,21 +10,22 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "$0")/script.sh"
 from='' to='' N=50
-while getopts hf:t:n: option; do
+while getopts f:t:n: option; do
   case $option in
     f) from=$OPTARG ;;
     t) to=$OPTARG ;;
     n) N=$OPTARG ;;
-    h) sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"; exit ;;
     *) exit 2 ;;
   esac
 done
 shift $((OPTIND - 1))
-[ $# -le 1 ] || { echo "law.sh: one file, not $#" >&2; exit 2; }
-wrong() { echo "law.sh: $1" >&2; exit 2; }
-bin=$(cd "$(dirname "$0")/.." && pwd)/bin
-PATH=$bin:$PATH
+[ $# -le 1 ] || wrong "one file, not $#"
+is_count "$N" && [ "$N" -ge 2 ] || wrong "-n $N: a whole number, 2 or more"
+for limit in "$from" "$to"; do
+  [ -z "$limit" ] || is_number "$limit" || wrong "$limit is not a number"
+done
 
 # The velocities of a row with their law, which is not that of a body: K, R and m do not count.
 law() {  # HEADER ROW
@@ -47,8 +48,7 @@ law() {  # HEADER ROW
           $3 * exp(-1.96 * s), $3 * exp(1.96 * s) }'
 }
 
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+make_scratch
 cat -- "${1:--}" >"$scratch/rows"
 header=$(grep '^# ' "$scratch/rows" | tail -n 1) || wrong 'no row of fitpower'
 rows=0

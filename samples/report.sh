@@ -8,14 +8,13 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "$0")/script.sh"
+[ $# -gt 0 ] && [ $# -le 2 ] || wrong 'say the folder of the figures, and that of work-precision if it was run'
 figures=$(cd "$1" && pwd)
 measured=''
 [ $# -lt 2 ] || measured=$(cd "$2" && pwd)
 cd "$(dirname "$0")"
-# The tools of this source, or those on the PATH.
-PATH=$(cd .. && pwd)/bin:$PATH
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+make_scratch
 ./table1.sh >"$scratch/table1" ||
   echo "report: table1.sh finds a value too far off, or an open balance; see the page" >&2
 

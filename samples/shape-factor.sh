@@ -13,9 +13,8 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "$0")/script.sh"
 here=$(cd "$(dirname "$0")" && pwd)
-# The tools of this source, or those on the PATH.
-PATH=$(cd "$here/.." && pwd)/bin:$PATH
 
 # What was measured with a balance and a caliper, each with its standard uncertainty; g is known.
 measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]
@@ -131,11 +130,14 @@ make_runs() {  # FOLDER SEED
 }
 
 case $#:${1-} in
-  3:make) make_runs "$2" "$3" ;;
+  3:make)
+    [ -d "$2" ] || wrong "$2 is no folder"
+    is_count "$3" || wrong "SEED is a whole number, not $3"
+    make_runs "$2" "$3"
+    ;;
   2:*) shape_factor "$1" "$2" ;;
   0:)
-    scratch=$(mktemp -d)
-    trap 'rm -rf "$scratch"' EXIT
+    make_scratch
     make_runs "$scratch" 1
     echo "Shape factors from made runs, and the law of the rubber mat with them"
     for body in "cylinder 0.50 CR" "shell 0.83 SR"; do
@@ -146,5 +148,5 @@ case $#:${1-} in
         fitpower -q --route position -K "$K" -R 0.04 --digits 4
     done
     ;;
-  *) echo "usage: shape-factor.sh [FALL SPIN | make FOLDER SEED]" >&2 && exit 2 ;;
+  *) wrong 'two runs, FALL and SPIN, or: make FOLDER SEED' ;;
 esac

@@ -49,9 +49,9 @@ samples() {
     samples/[CS][FR].csv samples/[CS][FR].toml \
     samples/exports/capstone.csv samples/exports/phyphox.csv samples/exports/tracker.txt \
     samples/exports/vernier.csv
-  for folder in exports figures fleet lab; do
+  for folder in exports figures lab; do
     folder=samples/$folder
-    set -- "$@" $folder/*.sh $folder/*.awk $folder/*.gp $folder/Makefile $folder/README.md
+    set -- "$@" $folder/*.sh $folder/*.gp $folder/README.md
   done
   for sample; do [ ! -f "$sample" ] || printf '%s\n' "$sample"; done
 }

@@ -5,6 +5,8 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "$0")/../script.sh"
+[ $# = 1 ] && [ -d "$1" ] || wrong 'say one folder'
 to=$(cd -- "$1" && pwd)
 cd "$(dirname "$0")/.."
 

@@ -13,9 +13,9 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "${BASH_SOURCE[0]}")/../script.sh"
 terminal=svg K='' R='' slope=0 column='' use=()
-usage() { sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"; }
-while getopts ht:K:R:c:-: option; do
+while getopts t:K:R:c:-: option; do
   # --slope S, and --slope=S.
   if [ "$option" = - ]; then
     option=--${OPTARG%%=*}
@@ -32,8 +32,7 @@ while getopts ht:K:R:c:-: option; do
     c) column=$OPTARG ;;
     --slope) slope=$OPTARG ;;
     --use) use+=(--use "$OPTARG") ;;
-    h | --help) usage; exit ;;
-    *) usage >&2; exit 2 ;;
+    *) help >&2; exit 2 ;;
   esac
 done
 shift $((OPTIND - 1))
@@ -49,11 +48,9 @@ own_body() {
 }
 # The rows of a run with their column x or v.
 read_run() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+make_scratch
 figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 samples=${figures%/*}
-PATH=${samples%/*}/bin:$PATH
 cp "$figures"/*.gp "$samples"/*.csv "$samples"/*.toml "$scratch"
 called_from=$PWD
 cd "$scratch"

@@ -12,7 +12,7 @@
 # show, how many rows were left out, and where; and it names the times of rows that are more than five
 # times the scatter off. `make figures/residuals.svg`
 . "$(dirname "$0")/draw.sh"
-[ $# -le 1 ] || { usage >&2; exit 2; }
+[ $# -le 1 ] || { help >&2; exit 2; }
 [ $# = 1 ] || K=0.5 R=0.04
 own_body
 file=${1:-CR.csv}

@@ -1,95 +1,148 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# lab.sh [all|check]: the runs in a folder -> a fit of each -> one table and what they say together ->
-# D(v) of all as a figure, in results/. The environment says what rolled:
-#   records  the folder; its files *.csv, *.tsv and *.txt in either case are the runs, in order
-#   K, R     shape factor and radius [m], one for all runs or one for each: 0.5,0.83
-#   m        mass [kg]; column: x positions, or v velocities; slope: S or fit
-#   use      NAME=COLUMN, or several with blanks between them: t=2[ms] x=Ort
-# Everything is made anew each time: nothing is told of a run that is no longer there. `check` fails
-# where a law or an energy balance does not hold. Names of files are never code.
-set -eu
+# lab.sh [OPTION]... -K K -R R FILE|FOLDER...: the free rolls of all runs, the law of each, the law of
+# all and a figure. A file may hold several runs; of a folder the files .csv, .tsv and .txt count.
+#
+#   -K, -R        shape factor and radius [m], one or one for each run in order: 0.5,0.83
+#   -c x|v        fit positions (x) or velocities (v)
+#   --slope S     slope of the mat, or fit: from runs in both directions
+#   --use NAME=COLUMN  which column serves as t, x or v; may be repeated
+#   -o FOLDER     where the results go (results): table.txt, joint.txt, fig4.svg and others
+#   --check       exit with 1 unless each run has a law a v^b, all have one law, and, with -m, the
+#                 energy and the momenta of each balance within 5 %
+#   -m M          mass [kg], one or one for each run
+#   --accept RUN  do not check this run; may be repeated
+#
+# A file that cannot be used is named and passed over. Results replace those of an earlier run when
+# all of them are made. A folder that lab.sh did not make is not touched.
+set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-goal=${1:-all}
-cd "$(dirname "$0")"
-PATH=$(cd ../.. && pwd)/bin:$PATH
-say() { printf 'lab: %s\n' "$*" >&2; }
-column=${column:-x} slope=${slope:-0} m=${m:-1}
-[ -n "${K-}" ] && [ -n "${R-}" ] || { say 'say what rolled: K=0.5 R=0.04'; exit 2; }
+. "$(dirname "$0")/../script.sh"
+K='' R='' m='' column=x slope=0 results=results check=false use=() accepted=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --check) check=true; shift; continue ;;
+    --) shift; break ;;
+    -?*) [ $# -gt 1 ] || wrong "$1 needs a value" ;;
+    *) break ;;
+  esac
+  case $1 in
+    -K) K=$2 ;;
+    -R) R=$2 ;;
+    -m) m=$2 ;;
+    -c) column=$2 ;;
+    --slope) slope=$2 ;;
+    --use) use+=(--use "$2") ;;
+    --accept) accepted+=("$2") ;;
+    -o) results=$2 ;;
+    *) wrong "$1 is no option; lab.sh --help lists them" ;;
+  esac
+  shift 2
+done
+[ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 case $column in
   x) route=position ;;
   v) route=velocity ;;
-  *) say "column=$column: x or v"; exit 2 ;;
+  *) wrong "-c $column: x or v" ;;
 esac
-records=${records:-records}
-set --
-for file in "$records"/*; do
-  case $file in
-    *.[cC][sS][vV] | *.[tT][sS][vV] | *.[tT][xX][tT])
-      [ "${file##*/}" = truth.txt ] || set -- "$@" "$file" ;;
-    *) [ ! -f "$file" ] || say "left out, since it ends in none of .csv, .tsv, .txt: ${file##*/}" ;;
-  esac
+say() { printf 'lab.sh: %s\n' "$*" >&2; }
+[ ! -e "$results" ] || [ -e "$results/made-by-lab" ] ||
+  wrong "$results exists, and lab.sh did not make it: choose another folder with -o"
+make_scratch
+
+files=()
+for operand; do
+  [ -d "$operand" ] || { files+=("$operand") && continue; }
+  for file in "$operand"/*; do
+    case $file in
+      *.[cC][sS][vV] | *.[tT][sS][vV] | *.[tT][xX][tT]) files+=("$file") ;;
+      *) [ ! -f "$file" ] || say "left out, since it ends in none of .csv, .tsv, .txt: ${file##*/}" ;;
+    esac
+  done
 done
-[ $# -gt 0 ] || { say "no runs in '$records': say records=/PATH/OF/THE/FOLDER"; exit 2; }
+roll() { smooth --coast -c $column ${use[@]+"${use[@]}"} -- "$@"; }
+used=()
+for file in ${files[@]+"${files[@]}"}; do
+  if roll "$file" >"$scratch/roll" 2>"$scratch/said"; then
+    used+=("$file")
+  else
+    say "passed over: ${file##*/}: $(tail -n 1 "$scratch/said")"
+  fi
+done
+[ ${#used[@]} -gt 0 ] || wrong 'there is no run to be fitted'
+case $K,$R,$m in
+  *,*,*,*) [ ${#used[@]} = ${#files[@]} ] || wrong 'a file was passed over: which run has which K, R or m?' ;;
+esac
 
-rm -rf results
-mkdir results
-roll() { with_use smooth --coast -c "$column" -w 1 -- "$@"; }
-# with_use COMMAND OPTION... -- FILE...: the command with a --use for each word of use.
-with_use() {
-  command=$1
-  shift
-  set -f  # t=2[ms] is no pattern
-  for word in ${use-}; do set -- --use "$word" "$@"; done
-  set +f
-  "$command" "$@"
-}
+new=$scratch/new
+mkdir "$new"
+roll "${used[@]}" >"$new/rolls"
+grep -q '^## run ' "$new/rolls" || {
+  printf '## run %s\n' "$(printf %s "${used[0]##*/}" | tr '[:cntrl:]' '?')"
+  cat "$new/rolls"
+} >"$scratch/named" && [ ! -s "$scratch/named" ] || mv "$scratch/named" "$new/rolls"
+runs=$(grep -c '^## run ' "$new/rolls")
 fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" "$@"; }
-# Of a list, K or R, the value of run number $2.
-of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
-velocity() {
-  if [ "$column" = x ]; then roll "$1" | differentiate -c x -M savgol -w 21
-  else roll "$1" | smooth -c v -M savgol -w 21; fi
-}
-
-# Several runs have the names of their files.
-{ [ $# -gt 1 ] || printf '## run %s\n' "$(printf %s "${1##*/}" | tr '[:cntrl:]' '?')"
-  roll "$@"; } >results/rolls
 if [ "$slope" = fit ]; then
-  fit --slope fit results/rolls >results/slope.txt
+  fit --slope fit "$new/rolls" >"$new/slope.txt"
   slope=$(awk -F '\t' '/^# / { for (i = 1; i <= NF; i++) if ($i == "slope") s = i; next }
-    !/^#/ { print $s }' results/slope.txt)
+    !/^#/ { print $s }' "$new/slope.txt")
 fi
-fit --slope "$slope" --each results/rolls >results/table.txt
-if [ $# -gt 1 ]; then
-  quiet=  # check tells of runs that disagree
-  [ "$goal" = all ] || quiet=-q
-  fitpower $quiet --digits 6 --route fits -K "$K" -R "$R" results/table.txt >results/joint.txt
-  cat results/joint.txt
+fit --slope "$slope" --each "$new/rolls" >"$new/table.txt" || say 'some runs have no law'
+if [ "$runs" -gt 1 ]; then
+  fitpower --digits 6 --route fits -K "$K" -R "$R" "$new/table.txt" >"$new/joint.txt"
+  cat "$new/joint.txt"
 else
-  cat results/table.txt
+  cat "$new/table.txt"
 fi
 if command -v gnuplot >/dev/null; then
-  with_use ../figures/fig4.sh -c "$column" -K "$K" -R "$R" --slope "$slope" -- "$@" >results/fig4.svg
+  mkdir "$scratch/drawn"
+  number=0
+  while IFS= read -r name; do
+    number=$((number + 1))
+    smooth -q -c $column -w 1 --run $number "$new/rolls" >"$scratch/drawn/${name//\//_}"
+    drawn[number]=$scratch/drawn/${name//\//_}
+  done < <(sed -n 's/^## run //p' "$new/rolls")
+  "$(dirname "$0")/../figures/fig4.sh" -c "$column" -K "$K" -R "$R" --slope "$slope" \
+    -- "${drawn[@]}" >"$new/fig4.svg"
 fi
-[ "$goal" = check ] || exit 0
 
-# One law for all, a law a v^b for each run, and the energy that it dissipates, within 5 %. The
-# speeds of a sensor are not asked for the law: each was made of several positions, so their noise is
-# not white, and the check of the residuals would blame the law for it.
 failed=0
-[ $# -lt 2 ] || fitpower -q --check --route fits -K "$K" -R "$R" results/table.txt >/dev/null ||
-  { say 'the runs do not have one law'; failed=1; }
-[ "$column" = v ] || fit -q --check --each --slope "$slope" results/rolls >/dev/null ||
-  { say 'the positions are not those of a law a v^b'; failed=1; }
-i=0
-for file; do
-  i=$((i + 1))
-  law=$(awk -F '\t' -v i=$i '!/^#/ && ++n == i { print "-a " $1 " -b " $3 }' results/table.txt)
+# Of a list, K or R, the value of run number $2.
+of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
+check_run() {  # NUMBER NAME
+  local law
+  [ "$column" = v ] || fitpower -q --check --run "$1" --route position -K "$(of_run "$K" "$1")" \
+    -R "$(of_run "$R" "$1")" --slope "$slope" "$new/rolls" >/dev/null || return 1
+  [ "$m" ] || return 0
+  law=$(awk -F '\t' -v i="$1" '!/^#/ && ++n == i { print "-a " $1 " -b " $3 }' "$new/table.txt")
   # shellcheck disable=SC2086  # two options and their numbers
-  velocity "$file" 2>/dev/null | energy-ledger -m "$m" -K "$(of_run "$K" $i)" \
-    -R "$(of_run "$R" $i)" --slope "$slope" $law --summary --check 0.05 >>results/energy.txt ||
-    { say "the energy of run $i does not balance: ${file##*/}"; failed=1; }
+  if [ "$column" = x ]; then differentiate -q -c x -M savgol -w 21 --run "$1" "$new/rolls"
+  else smooth -q -c v -M savgol -w 21 --run "$1" "$new/rolls"; fi |
+    energy-ledger -m "$(of_run "$m" "$1")" -K "$(of_run "$K" "$1")" -R "$(of_run "$R" "$1")" \
+      --slope "$slope" $law --summary --check 0.05 >>"$new/energy.txt"
+}
+if $check; then
+  [ "$runs" -lt 2 ] || fitpower -q --check --route fits -K "$K" -R "$R" "$new/table.txt" >/dev/null ||
+    { say 'the runs do not have one law'; failed=1; }
+  number=0
+  while IFS= read -r name; do
+    number=$((number + 1))
+    [[ " ${accepted[*]-} " != *" $name "* ]] || continue
+    check_run $number || { say "the check fails: run $name"; failed=1; }
+  done < <(sed -n 's/^## run //p' "$new/rolls")
+  [ $failed = 1 ] || echo "passed: $runs runs" >&2
+fi
+
+# Each file of the results beside its place, and then into it by its name.
+mkdir -p "$results"
+: >"$results/made-by-lab"
+for file in "$new"/*; do
+  name=${file##*/}
+  cp "$file" "$results/.$name.new" && mv "$results/.$name.new" "$results/$name"
+done
+for name in slope.txt joint.txt energy.txt fig4.svg; do
+  [ -e "$new/$name" ] || rm -f "$results/$name"
 done
 exit $failed

@@ -9,6 +9,7 @@
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
+. "$(dirname "$0")/../script.sh"
 K='' R='' width=11 column=v terminal=''
 while getopts K:R:w:c:T: option; do
   case $option in
@@ -21,11 +22,13 @@ while getopts K:R:w:c:T: option; do
   esac
 done
 shift $((OPTIND - 1))
-[ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
-[ $# = 1 ] || { sed -n '3s/^# //p' "$0" >&2; exit 2; }
-PATH=$(cd "$(dirname "$0")/../.." && pwd)/bin:$PATH
+[ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
+[ $# = 1 ] || wrong 'say one source: a device, a file that grows, or -'
+[ "$1" = - ] || [ -r "$1" ] || wrong "$1: there is no such device or file that can be read"
+is_count "$width" || wrong "-w $width: a whole number"
+case $column in x | v) ;; *) wrong "-c $column: x or v" ;; esac
 command -v gnuplot >/dev/null ||
-  { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
+  wrong 'gnuplot is not installed; make setup figures installs it'
 if [ -z "$terminal" ]; then
   terminal=dumb
   if [ -n "${DISPLAY-}${WAYLAND_DISPLAY-}" ]; then

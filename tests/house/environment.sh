@@ -16,7 +16,7 @@ complain() { echo "$*" && wrong=1; }
 first=$'\nexport LC_ALL=C\nunset CDPATH'
 for script in cmd/install/*.sh samples/*.sh samples/*/*.sh tests/run.sh tests/bench/*.sh; do
   start=$(grep -v '^#' "$script" | head -n 3)
-  [[ $start == 'set -'*"$first" || $start == *'/draw.sh"'* ]] ||
+  [[ $start == 'set -'*"$first" || $start == *'/draw.sh"'* || $script == samples/script.sh ]] ||
     complain "$script does not begin with set, LC_ALL and CDPATH"
 done
 
@@ -41,13 +41,10 @@ all_scripts() {
     "$samples/report.sh" "$out" >"$out/report.html"
     sed -i '/<h2>How exact/,$d' "$out/report.html"  # it ends with a table of run times
   fi
-  "$samples/fleet/make.sh" "$out/fleet" 3
-  cp "$samples/CR.csv" "$out/fleet/a&b;touch hit;\$(touch hit)\`touch hit\`'\"\\t x.csv"
-  cp "$samples/CR.csv" "$out/fleet/#h.csv"
-  for name in "$out"/fleet/*.csv; do "$samples/fleet/fit.sh" -K 0.5 -R 0.04 "$name"; done 2>"$out/told" | LC_ALL=C sort >"$out/table"
-  LC_ALL=C sort -o "$out/told" "$out/told"
-  fitpower --route fits "$out/table" >"$out/joint"
-  if command -v parallel >/dev/null; then "$samples/fleet/table.sh" -K 0.5 -R 0.04 "$out/fleet" >"$out/parallel"; fi
+  mkdir "$out/runs"
+  cp "$samples/CR.csv" "$out/runs/a&b;touch hit;\$(touch hit)\`touch hit\`'\"\\t x.csv"
+  cp "$samples/CR.csv" "$out/runs/#h.csv"
+  "$samples/lab/lab.sh" -K 0.5 -R 0.04 -o "$out/results" "$out/runs"
 }
 odd="$scratch/o d'd\"&;\$(touch hit)\`touch hit\`"
 mkdir "$scratch/plain" "$odd" "$odd/out" "$odd/tmp"
@@ -59,9 +56,9 @@ cp -R samples "$odd/samples"
   complain "in odd surroundings: $(cat "$scratch/said")"
 diff -r "$scratch/plain" "$odd/out" | cut -c 1-300 | head -n 40 | grep . &&
   complain "the scripts give something else in odd surroundings"
-[ "$(grep -vc '^#' "$scratch/plain/table")" = 5 ] ||
-  complain "not a row for each run: $(cut -f 1 "$scratch/plain/table")"
-[ "$(awk -F'\t' '{ print NF }' "$scratch/plain/table" | sort -u | wc -l)" = 1 ] ||
+table=$scratch/plain/results/table.txt
+[ "$(grep -vc '^#' "$table")" = 2 ] || complain "not a row for each run: $(cut -f 1 "$table")"
+[ "$(awk -F'\t' '!/^##/ { print NF }' "$table" | sort -u | wc -l)" = 1 ] ||
   complain "a name makes a column"
 [ ! -e hit ] && [ -z "$(find "$scratch" -name hit)" ] || complain "a name was run as code"
 

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# samples/lab: `make` goes from the runs to the table, the joint law and the figure, whatever the files
-# are called and whatever was there before; `make check` fails where a v^b is not the law of a run,
-# where the runs disagree or the energy does not balance; live.sh draws while a run comes, from a
-# terminal line and from a file that grows.
+# samples/lab: lab.sh goes from the runs to the table, the joint law and the figure, whatever the files
+# are called and whatever was there before; --check fails if a v^b is not the law of a run, if the runs
+# disagree or the energy does not balance; live.sh draws while a run comes, from a terminal line and
+# from a file that grows.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
@@ -19,16 +19,21 @@ for tool in bin/*; do ln -s "$PWD/$tool" "$scratch/bin"; done
 cp -R samples "$scratch"
 cd "$scratch/samples/lab" || exit 2
 
-body='K=0.5 R=0.04 m=1.375'
+of_body='-K 0.5 -R 0.04 -m 1.375'
+lab() { ./lab.sh "$@" >said 2>&1; }
 runs() { cut -f "$(head -n 1 results/table.txt | tr '\t' '\n' | grep -n '^run$' | cut -d: -f1)" \
   results/table.txt | grep -v '^run$'; }
 law() { awk '!/^#/ { print $1, $3 }' results/joint.txt; }
 
 # Five rolls of one cylinder on one mat, as the README of this folder makes them.
-../fleet/make.sh records 5 0
+mkdir runs
+for seed in 101 102 103 104 105; do
+  simulate --scene ../CR.toml --sensor pasco --seed $seed >runs/$seed.csv
+done
 # shellcheck disable=SC2086  # words
-make $body check >said 2>&1 || complain "make check: $(cat said)"
-[ "$(runs | xargs)" = '0001.csv 0002.csv 0003.csv 0004.csv 0005.csv' ] ||
+lab --check $of_body runs || complain "check: $(cat said)"
+grep -qx 'passed: 5 runs' said || complain "no word of it: $(cat said)"
+[ "$(runs | xargs)" = '101.csv 102.csv 103.csv 104.csv 105.csv' ] ||
   complain "the table: $(cat results/table.txt)"
 grep -q '^</svg>' results/fig4.svg || complain 'no figure'
 # a and b are those that made the runs, and p is that of chi2 with 8 degrees of freedom.
@@ -40,10 +45,10 @@ awk '!/^#/ {
 [ "$(grep -vc '^#' results/energy.txt)" = 5 ] || complain "energy: $(cat results/energy.txt)"
 
 # What rolled is not guessed.
-make >said 2>&1 && complain 'make goes on without K and R'
-grep -q 'lab: say what rolled: K=0.5 R=0.04' said || complain "no K: $(cat said)"
-make K=0.5 R=0.04 records=/nonexistent >said 2>&1 && complain 'make took the runs of /nonexistent'
-grep -q "lab: no runs in '/nonexistent'" said || complain "no folder: $(cat said)"
+lab runs && complain 'lab.sh goes on without K and R'
+grep -q 'lab.sh: say what rolled: -K 0.5 -R 0.04' said || complain "no K: $(cat said)"
+lab -K 0.5 -R 0.04 /nonexistent && complain 'lab.sh took the runs of /nonexistent'
+grep -q "lab.sh: there is no run to be fitted" said || complain "no folder: $(cat said)"
 
 # Names of files, in a folder with a blank, are names: each is a run, with the law of its numbers, and
 # none is code. A run that is added, replaced or removed is so in the table and in the joint law.
@@ -54,17 +59,20 @@ for name in 'a b.csv' "Ann's.csv" 'C&S.CSV' 'run(1).csv' 'a:b.csv' 'r;>pwned;.cs
   '$(touch pwned).csv' '`touch pwned`.txt' '#1.csv' '%s.csv' 'a\b.csv' '*.csv' 'ü.csv' 'a=b.csv' \
   '~.csv' '!.csv' '{a,b}.csv' '|x.csv' '<y.csv' '[z].tsv' '--help.csv' '$K.csv'; do
   number=$((number % 5 + 1))
-  cp "records/000$number.csv" "$odd/$name"
+  cp "runs/10$number.csv" "$odd/$name"
 done
 echo 'nothing of a run' >"$odd/notes.md"
-make records="$odd" K=0.5 R=0.04 >said 2>&1 || complain "odd names: $(cat said)"
-grep -q 'lab: left out, .*: notes.md' said || complain "notes.md is not told: $(cat said)"
+echo 'nothing of a run' >"$odd/notes.txt"
+lab -K 0.5 -R 0.04 "$odd" || complain "odd names: $(cat said)"
+grep -q 'lab.sh: left out, .*: notes.md' said || complain "notes.md is not named: $(cat said)"
+grep -q 'lab.sh: passed over: notes.txt: smooth: ' said || complain "notes.txt is not named: $(cat said)"
 find "$scratch" -name 'pwned*' | grep . && complain 'the name of a file is code'
+rm "$odd/notes.txt"
 [ "$(runs | tr -d '"' | sort)" = "$(cd "$odd" && printf '%s\n' *.csv *.CSV *.t?? | sort)" ] ||
   complain "odd names: $(runs)"
 rm "$odd/-K.csv"
-cp records/0002.csv "$odd/a b.csv"
-make records="$odd" K=0.5 R=0.04 >said 2>&1 || complain "one less: $(cat said)"
+cp runs/102.csv "$odd/a b.csv"
+lab -K 0.5 -R 0.04 "$odd" || complain "one less: $(cat said)"
 runs | grep -qx -- '-K.csv' && complain 'a run that was removed is in the table'
 [ "$(awk '!/^#/ { print $8 }' results/joint.txt)" = 22 ] || complain 'a removed run is in the joint law'
 a() { awk -F '\t' -v run="$1" '$NF == run { print $1 }' results/table.txt; }
@@ -82,41 +90,52 @@ for K in 0.5 0.83; do
         'down && NR > 1 && $2 != "" { $2 = 2 - $2 } { print $1, $2 }' >two/$i.csv
   done
 done
-make records=two K=0.5,0.5,0.83,0.83 R=0.04 slope=fit >said 2>&1 || complain "two bodies: $(cat said)"
+bodies='-K 0.5,0.5,0.83,0.83 -R 0.04'
+# shellcheck disable=SC2086  # words, here and below
+lab $bodies --slope fit two || complain "two bodies: $(cat said)"
 awk '!/^#/ { exit !($11 > 0.01 && ($1 - 1.87e-3)^2 < 16 * $2^2) }' results/joint.txt ||
   complain "two bodies: $(cat said results/joint.txt)"
-make records=two K=0.5 R=0.04 >said 2>&1
+lab -K 0.5 -R 0.04 two
 grep -q 'fitpower: the runs disagree .* stands out' said || complain "one K for two bodies: $(cat said)"
+echo none >two/5.csv
+lab $bodies two && complain 'a run is missing, and the K of the others is guessed'
+rm two/5.csv
+# The same runs in one file are the same runs.
+lab $bodies --slope 0.001 two && law >of-files
+awk -v OFS=, 'FNR == 1 && NR > 1 { print "" } { print }' \
+  two/1.csv two/2.csv two/3.csv two/4.csv >all.csv
+lab $bodies --slope 0.001 all.csv || complain "four runs in a file: $(cat said)"
+law | cmp - of-files || complain "four runs in a file have another law: $(cat said)"
 
 # A column that has a name of its own, as the table and as the figure say; and the slope is in it.
 mkdir named
 for i in 1 2 3 4; do sed '1s/.*/Time (s),Ort/' two/$i.csv >named/$i.csv; done
-make records=two K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 >said 2>&1 || complain "slope=0.001: $(cat said)"
+lab $bodies --slope 0.001 two || complain "slope 0.001: $(cat said)"
 law >named/law && cp results/fig4.svg named/
 grep -q 'slope 0.001;' named/fig4.svg || complain 'the figure has no slope'
-make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 >said 2>&1 && complain 'Ort is taken for x'
-make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 use=x=Ort >said 2>&1 || complain "use=x=Ort: $(cat said)"
-law | cmp - named/law && cmp results/fig4.svg named/fig4.svg || complain "use=x=Ort: $(cat said)"
+lab $bodies --slope 0.001 named && complain 'Ort is taken for x'
+lab $bodies --slope 0.001 --use x=Ort named/?.csv || complain "--use x=Ort: $(cat said)"
+law | cmp - named/law && cmp results/fig4.svg named/fig4.svg || complain "--use x=Ort: $(cat said)"
 # Two of them, one with a unit.
 for i in 1 2 3 4; do awk -F, -v OFS=, 'NR == 1 { print "Zeitpunkt", "Ort"; next } { print 1000 * $1, $2 }' two/$i.csv >named/$i.csv; done
-make records=named K=0.5,0.5,0.83,0.83 R=0.04 slope=0.001 'use=t=1[ms] x=Ort' >said 2>&1 || complain "use of two: $(cat said)"
+lab $bodies --slope 0.001 --use 't=1[ms]' --use x=Ort named/?.csv || complain "use of two: $(cat said)"
 law | cmp - named/law || complain "use of two: $(cat said)"
 
 # Speeds instead of positions; two mats have no one law.
 mkdir speeds
 for run in CF CR; do cut -d, -f1,3 ../$run.csv >speeds/$run.csv; done
-make records=speeds K=0.5 R=0.04 column=v check >said 2>&1 && complain 'check: two mats agree'
-grep -q 'lab: the runs do not have one law' said || complain "check: two mats: $(cat said)"
+lab --check -K 0.5 -R 0.04 -c v speeds && complain 'check: two mats agree'
+grep -q 'lab.sh: the runs do not have one law' said || complain "check: two mats: $(cat said)"
 # Another law, D = 0.5 mm + 4 mm (v/(m/s))^2: no a v^b describes its roll.
 mkdir other
 awk 'BEGIN { print "# v D"; for (i = 0; i <= 60; i++) print i / 100, 5e-4 + 4e-3 * (i / 100)^2 }' |
   simulate --law - -K 0.5 -R 0.04 --v0 0.5 --sensor pasco --seed 3 >other/run.csv
 cp -R other ./-x
-make records=-x K=0.5 R=0.04 check >said 2>&1 && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
-for line in 'the positions are not those of a law a v^b' 'the energy of run 1 does not balance: run.csv'; do
-  grep -q "lab: $line" said || complain "check: D = 0.5 mm + 4 mm v^2: $(cat said)"
-done
+lab --check $of_body -- -x && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
+grep -q 'lab.sh: the check fails: run run.csv' said || complain "check: D = 0.5 mm + 4 mm v^2: $(cat said)"
 [ "$(runs)" = run.csv ] || complain "the name of one run: $(runs)"
+# Whoever has looked at it may accept it.
+lab --check --accept run.csv $of_body other || complain "--accept: $(cat said)"
 
 # live.sh: a picture for every row but the last six: five wait for their window to be whole, one
 # for the difference with the next. A row comes at its own pace through a pseudo terminal.

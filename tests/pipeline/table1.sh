@@ -14,7 +14,7 @@ awk '/^rubber mat, (shell|cylinder)/ { K = /shell/ ? 0.83 : 0.5 } /^felt mat/ { 
     if (($7 - given)^2 > 1e-8) exit 1; seen++ }
   END { exit seen != 2 }' "$scratch/out" ||
     { cat "$scratch/out"; echo "what K and R bring to a"; exit 1; }
-cp samples/*.csv samples/*.toml samples/table1.sh "$scratch"
+cp samples/*.csv samples/*.toml samples/table1.sh samples/script.sh "$scratch"
 sed -i 's/1\.87e-3/2.30e-3/' "$scratch/table1.sh"
 if "$scratch/table1.sh" >"$scratch/out"; then
   cat "$scratch/out"; echo "a wrong a is not noticed"; exit 1
