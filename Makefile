@@ -61,10 +61,10 @@ build/%.o: %.cpp build/flags
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-# The compiler and its flags: a build with others compiles all again, but `make install` installs
-# what was built.
+# The compiler and its flags: a build with others compiles all again, but `make install` installs and
+# SHORT=1 runs what was built.
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS)
-build/flags: $(if $(filter install,$(MAKECMDGOALS)),,always)
+build/flags: $(if $(SHORT)$(filter install,$(MAKECMDGOALS)),,always)
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(subst ','\'',$(flags))' >$@.new; \
 	  if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi

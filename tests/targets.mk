@@ -71,7 +71,10 @@ build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 fused := $(addprefix build/fused/,plain fused bin/smooth bin/differentiate)
 
-check: build/unit build/shim.so $(target:%=build/replay/%) $(if $(has_fma),$(fused)) \
+# What the suite does not build rots: every source is compiled, those of measurements too.
+bench := $(patsubst tests/bench/%.cpp,build/bench/%,$(filter-out %/coverage.cpp,\
+           $(wildcard tests/bench/*.cpp))) build/coverage
+check: build/unit build/shim.so $(bench) $(target:%=build/replay/%) $(if $(has_fma),$(fused)) \
        $(if $(static_libc),$(tool:%=build/static/bin/%))
 
 # Most of the suite on arm64, through qemu: make setup check-arm64.
@@ -119,7 +122,7 @@ check_in = $(MAKE) -C $1 check SLOWER=5 \
                   tests/house/terminal.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
-             -fno-sanitize-recover=all
+             -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS
 fuzz:
 	@$(call copy,build/fuzzing)
 	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" \
@@ -162,6 +165,10 @@ MUTANTS ?= 150
 mutate: check
 	tests/mutate.py --count $(MUTANTS)
 
+# SHORT=1 runs a measurement on the smallest amount, in a second or so, to see that it runs:
+# tests/house/goals.sh.
+short = $(if $(SHORT),$1,$2)
+
 # The long form of the tests of numbers, memory and packages.
 check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
@@ -175,8 +182,9 @@ build/tests/bench/coverage.o: CPPFLAGS += -Itests
 build/coverage: build/tests/bench/coverage.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) -pthread
 coverage: build/coverage build/bench/troubles
-	@{ echo 'Of build/coverage and build/bench/troubles, run by make coverage:'; build/coverage; \
-	  build/bench/troubles; } | tee samples/coverage.txt
+	@{ echo 'Of build/coverage and build/bench/troubles, run by make coverage:'; \
+	  build/coverage $(call short,2); build/bench/troubles $(call short,2); } | \
+	  tee $(call short,build,samples)/coverage.txt
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.
@@ -193,20 +201,20 @@ endif
 
 work-precision: build/bench/ulp build/bench/work_precision
 	@mkdir -p build/work-precision
-	build/bench/ulp | tee build/work-precision/ulp.tsv
-	build/bench/work_precision build/work-precision
+	build/bench/ulp $(call short,200) | tee build/work-precision/ulp.tsv
+	build/bench/work_precision build/work-precision $(call short,memory-1e-3)
 	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv
 
 # The errors of smooth and differentiate on noisy runs, by method and window: some seconds.
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
-	tests/bench/signal.sh build/work-precision
+	tests/bench/signal.sh build/work-precision $(call short,2)
 	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed
-	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh
-	@PATH="$$PWD/bin:$$PATH" tests/bench/profile.sh
+	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh $(call short,2000 1)
+	@PATH="$$PWD/bin:$$PATH" $(call short,: )tests/bench/profile.sh
 
 # Static analysis; .clang-tidy says what is checked. No function of lib/ is without a tool that calls it.
 lint:

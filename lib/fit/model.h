@@ -76,7 +76,7 @@ class Parameters {
 
   Law law(const std::vector<double>& theta) const {
     std::array<double, LawForm::most> c{};
-    const double* from = &theta[count() - shared()];
+    const double* from = theta.data() + (count() - shared());  // past the end if all are fixed
     for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
       c[j] = j == 0 && a_ ? 0 : j == 1 && b_ ? *b_ : *from++;
     if (a_) c[0] = *a_ * std::pow(v_unit_, c[1]) / D_unit_;

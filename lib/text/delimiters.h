@@ -10,11 +10,12 @@
 
 namespace rolling {
 
+/// What stands around cells where they are blank: the separators and the blank. It is an array, since
+/// two uses of a literal may be two objects, and a search goes from the begin of one to its end.
+inline constexpr char filling_characters[] = "\t;, ";
+inline constexpr std::string_view filling = filling_characters;
 /// The separators of delimited files. A line is searched for them in this order.
-inline constexpr std::string_view separators = "\t;,";
-/// What stands around cells where they are blank: the separators and the blank.
-inline constexpr std::string_view filling = "\t;, ";
-static_assert(filling.starts_with(separators));
+inline constexpr std::string_view separators = filling.substr(0, 3);
 constexpr bool is_separator(char c) { return separators.find(c) != std::string_view::npos; }
 
 inline constexpr char quote = '"';

@@ -26,15 +26,15 @@ using namespace rolling;
 
 namespace {
 
-struct Scene {
+struct Experiment {
   const char* name;
   double K;
   PowerLaw law;
 };
-const Scene scenes[] = {{"CF", 0.5, {5.75e-4, 2.44e-2}},
-                        {"CR", 0.5, {1.87e-3, 0.215}},
-                        {"SF", 0.83, {5.75e-4, 2.44e-2}},
-                        {"SR", 0.83, {1.78e-3, 0.255}}};
+const Experiment scenes[] = {{"CF", 0.5, {5.75e-4, 2.44e-2}},
+                             {"CR", 0.5, {1.87e-3, 0.215}},
+                             {"SF", 0.83, {5.75e-4, 2.44e-2}},
+                             {"SR", 0.83, {1.78e-3, 0.255}}};
 
 using Series = std::vector<double>;
 
@@ -60,7 +60,7 @@ struct Roll {
   Series t, x, v, a;
 };  // v and a: the truth
 
-Roll roll(const Scene& scene, unsigned long seed) {
+Roll roll(const Experiment& scene, unsigned long seed) {
   const auto motion_owned = closed_roll({1.375, 0.04, scene.K}, scene.law, 0.5, 0);
   Motion& motion = *motion_owned;
   SonarOptions options;
@@ -80,7 +80,7 @@ Roll roll(const Scene& scene, unsigned long seed) {
   return out;
 }
 
-struct Method {
+struct Pipeline {
   std::string name;
   double width;  // NaN: none
   std::function<void(const Roll&, const Series& v, Series& smooth, Series& a)> apply;
@@ -90,8 +90,8 @@ constexpr std::size_t next(std::size_t width) {
   return width + (width < 15 ? 2 : width < 31 ? 4 : 10);
 }
 
-std::vector<Method> methods() {
-  std::vector<Method> all;
+std::vector<Pipeline> methods() {
+  std::vector<Pipeline> all;
   const SignalOptions central{differentiation.at("central")};
   for (const auto& [name, method] : smoothing)
     for (std::size_t width = method->has_order ? 5 : 1; width <= 61; width = next(width)) {
@@ -126,7 +126,7 @@ std::vector<Method> methods() {
 int main(int argc, char** argv) {
   if (argc > 2) {  // the runs themselves, for others: tests/bench/signal_scipy.py
     const unsigned long count = std::strtoul(argv[2], nullptr, 10);
-    for (const Scene& scene : scenes)
+    for (const Experiment& scene : scenes)
       for (unsigned long seed = 1; seed <= count; ++seed) {
         const Roll r = roll(scene, seed);
         for (std::size_t i = 0; i < r.t.size(); ++i)
@@ -146,8 +146,8 @@ int main(int argc, char** argv) {
       "s^2]\tends_a[m/s^2]\terror_D\tseconds_per_row\n",
       seeds);
   constexpr std::size_t ends = 5;
-  for (const Scene& scene : scenes)
-    for (const Method& method : methods()) {
+  for (const Experiment& scene : scenes)
+    for (const Pipeline& method : methods()) {
       std::vector<double> sum, squares, smooth, a, seconds;  // seconds: of each run, a row
       double v_errors = 0, inside = 0, outside = 0, relative = 0;
       std::size_t n = 0;

@@ -1,16 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# tests/bench/signal.sh FOLDER: the errors of smooth and differentiate on noisy runs, as
+# tests/bench/signal.sh FOLDER [SEEDS]: the errors of smooth and differentiate on noisy runs, as
 # FOLDER/signal.tsv, with SciPy's beside them where it is installed, and against window and run time
 # as FOLDER/signal{,-time}.{svg,png} where gnuplot is. Prints the best and the usual for each scene.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-folder=$1
+folder=$1 seeds=${2:-200}
 table=$folder/signal.tsv
-build/bench/signal >"$table"
+build/bench/signal "$seeds" >"$table"
 if /usr/bin/python3 -c 'import scipy' 2>/dev/null; then
-  build/bench/signal runs 200 | /usr/bin/python3 tests/bench/signal_scipy.py >>"$table"
+  build/bench/signal runs "$seeds" | /usr/bin/python3 tests/bench/signal_scipy.py >>"$table"
 else
   echo "SciPy is not installed: its rows are left out" >&2
 fi

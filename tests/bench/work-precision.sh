@@ -9,13 +9,13 @@ cd "$1" || exit 2
 echo "# failures: problem, by, method: how often of the tolerances, and how"
 for table in *.txt; do  # b=0.txt among them, which awk must not take for b = "0.txt"
   awk -F '\t' -v problem="${table%.txt}" '/failed: / {
-    how = $9; sub(/ at t = .*/, "", how); key = problem "\t" $1 "\t" $2 "\t" how; n[key]++ }
+    how = $8; sub(/ at t = .*/, "", how); key = problem "\t" $1 "\t" $2 "\t" how; n[key]++ }
     END { for (key in n) print key "\t" n[key] }' "./$table"
 done | sort
 command -v gnuplot >/dev/null || { echo "no figures: gnuplot is not installed" && exit 0; }
 # A curve for each method that came through at least once: this project's filled and full, GSL's own steppers and CVODE open and dashed.
 for table in *.txt; do
-  series=$(awk -F '\t' '!/^#/ && $4 != "nan" && NF > 8 { key = $1 " " $2; if (!seen[key]++) printf "\"%s\" ", key }' "./$table")
+  series=$(awk -F '\t' '!/^#/ && $4 != "nan" && NF > 7 { key = $1 " " $2; if (!seen[key]++) printf "\"%s\" ", key }' "./$table")
   for terminal in svg pngcairo; do
     LC_ALL=C.UTF-8 gnuplot "$style" /dev/stdin <<GP || exit 2
       set terminal $terminal size 720,520 font 'sans-serif,14' background 'white'

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// work_precision FOLDER - error against run time of every method on every problem, side by side in
-// one run: FOLDER/PROBLEM.txt each.
+// work_precision FOLDER [PROBLEM] - error against run time of every method on every problem or this
+// one, side by side in one run: FOLDER/PROBLEM.txt each.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ void row(std::FILE* file, const std::string& who, const std::string& method, dou
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc != 2 && argc != 3) return 2;
   const std::vector<std::pair<std::string, Stepper>> ours = {{"rkf45", Stepper::rkf45},
                                                              {"rk8pd", Stepper::rk8pd},
                                                              {"rk4imp", Stepper::rk4imp},
@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
       {"msbdf", gsl_odeiv2_step_msbdf}};
   const std::vector<double> tolerances = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   for (const auto& [name, roll] : problems()) {
+    if (argc == 3 && name != argv[2]) continue;
     const std::string path = fmt::format("{}/{}.txt", argv[1], name);
     std::FILE* file = std::fopen(path.c_str(), "w");
     if (!file) {
@@ -98,7 +99,7 @@ int main(int argc, char** argv) {
                "# by\tmethod\trtol\tmax_error\tstop_error\tevaluations\tns_sample\toutcome\n");
     const Method best = best_method(roll);
     const auto rolled = [&, &scene = roll](const Method& method, double rtol) {
-      return measure([&] { return start(scene, method, rtol); }, right, scene.v0);
+      return measure([&] { return start(scene, method, rtol); }, right);
     };
     if (best.kind != Method::solver) {
       row(file, "rolling", best.kind == Method::closed ? "closed" : "exact", 0, rolled(best, 0));
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
           row(file, odd ? "GSL-odd" : "GSL", method, rtol,
               measure([&, &scene = roll,
                        type = type] { return std::make_unique<BareGsl>(scene, type, rtol, odd); },
-                      right, roll.v0));
+                      right));
         fmt::print(file, "\n\n");
       }
     }
@@ -126,7 +127,7 @@ int main(int argc, char** argv) {
         row(file, "CVODE", method, rtol,
             measure([&, &scene = roll,
                      kind = kind] { return std::make_unique<Cvode>(scene, kind, rtol); },
-                    right, roll.v0));
+                    right));
       fmt::print(file, "\n\n");
     }
 #endif

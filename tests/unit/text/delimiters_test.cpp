@@ -37,3 +37,8 @@ TEST_CASE("delimiters: a field is quoted where it cannot stand bare", "[text]") 
   CHECK(appended("#1") == "\"#1\"");
   CHECK(appended("5\"") == "\"5\"\"\"");
 }
+
+TEST_CASE("separators: two uses of them are one object, so that a search ends", "[text]") {
+  CHECK(separators.data() == filling.data());
+  CHECK(std::ranges::find(separators, 'x') == separators.end());
+}

@@ -1,0 +1,56 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the suite does not build or run rots. Every source is compiled by `make check`, and every goal
+# of tests/targets.mk is run here on the smallest amount, or named with what keeps it from that.
+set -u
+export LC_ALL=C
+unset CDPATH MAKEFLAGS MAKELEVEL
+cd "$(dirname "$0")/../.." || exit 2
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+wrong=0
+complain() { echo "$*" && wrong=1; }
+
+while IFS= read -r source; do
+  case $source in
+    tests/faults/shim.cpp) object=build/shim.so ;;
+    tests/fuzz/tool.cpp) object=build/fuzz/smooth-target.o ;;
+    tests/gcov_exit.cpp) g++ -std=c++20 -fsyntax-only "$source" || complain "$source" && continue ;;
+    *) object=build/${source%.cpp}.o ;;
+  esac
+  [ -e "$object" ] || complain "$source is compiled by nobody"
+done < <(find cmd lib tests -name '*.cpp' ! -path '*/build/*')
+
+# run GOAL: what it prints goes to $scratch/said.
+run() {
+  make SHORT=1 "$1" >"$scratch/said" 2>&1 ||
+    complain "make SHORT=1 $1: $(tail -n 20 "$scratch/said")"
+}
+has() { grep -qE -- "$2" "$1" || complain "$1 has no '$2': $(head -n 5 "$1")"; }
+goals=$(sed -n '/^\.PHONY:/,/[^\\]$/p' tests/targets.mk | tr -d '\\' | sed 's/\.PHONY://')
+for goal in $goals; do
+  case $goal in
+    coverage)
+      run coverage
+      has build/coverage.txt '^white x +position +CR +[-+]' ;;
+    work-precision)
+      run work-precision
+      awk -F '\t' '$1 == "v" && NF == 2 { found = $2 } END { exit !(found > 0 && found < 1e-13) }' \
+        build/work-precision/ulp.tsv || complain "ulp: $(head -n 3 build/work-precision/ulp.tsv)"
+      # The names of the table are those of its rows, and of the page.
+      table=build/work-precision/memory-1e-3.txt
+      awk -F '\t' '/^#/ { n = NF } !/^#/ && NF && NF != n { exit 1 }' $table || complain "$table: $(head -n 3 $table)"
+      names=$(sed -n '1s/^# //p' $table | tr '\t' ' ')
+      has tests/bench/README.md "\`$names\`"
+      ! command -v gnuplot >/dev/null ||
+        [ "$(grep -c "<path stroke='rgb" "${table%.txt}.svg")" -ge 5 ] || complain "${table%.txt}.svg has no curves" ;;
+    work-precision-signal)
+      run work-precision-signal
+      has build/work-precision/signal.tsv '^CR.savgol' ;;
+    # These need minutes, another compiler, another machine, or run this suite.
+    bench | mutate | lint | fuzz | sanitize | coverage-lines | check-*) ;;
+    static-arm64) ;;
+    *) complain "the goal $goal is not run here" ;;
+  esac
+done
+exit $wrong
