@@ -10,8 +10,9 @@
 
 namespace rolling {
 
-/// What stands around cells where they are blank: the separators and the blank. It is an array, since
-/// two uses of a literal may be two objects, and a search goes from the begin of one to its end.
+/// What stands around cells where they are blank: the separators and the blank. It is an array,
+/// since two uses of a literal may be two objects, and a search goes from the begin of one to its
+/// end.
 inline constexpr char filling_characters[] = "\t;, ";
 inline constexpr std::string_view filling = filling_characters;
 /// The separators of delimited files. A line is searched for them in this order.
