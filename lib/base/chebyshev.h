@@ -49,7 +49,8 @@ class ChebyshevSeries {
     ChebyshevSeries sum;
     sum.from_ = from_, sum.to_ = to_;
     for (std::size_t j = 1; j < terms; ++j) {
-      const double unit = (to_ - from_) / 4 / static_cast<double>(j), first = j == 1 ? 2 : 1;
+      const double unit = (to_ - from_) / 4 / static_cast<double>(j);
+      const double first = j == 1 ? 2 : 1;
       for (std::size_t i = 0; i < N; ++i) {
         const double term =
             unit * (first * terms_[j - 1][i] - (j + 1 < terms ? terms_[j + 1][i] : 0));
@@ -62,7 +63,12 @@ class ChebyshevSeries {
   /// The value number i at t, and its derivative.
   std::pair<double, double> value_and_slope(std::size_t i, double t) const {
     const double x = 2 * (t - from_) / (to_ - from_) - 1;
-    double T = 1, next_T = x, U = 1, next_U = 2 * x, sum = terms_[0][i], slope = 0;
+    double T = 1;
+    double next_T = x;
+    double U = 1;
+    double next_U = 2 * x;
+    double sum = terms_[0][i];
+    double slope = 0;
     for (std::size_t j = 1; j < terms; ++j) {
       slope += static_cast<double>(j) * U * terms_[j][i];
       T = std::exchange(next_T, 2 * x * next_T - T);
@@ -75,7 +81,8 @@ class ChebyshevSeries {
   bool contains(double t) const { return t >= from_ && t <= to_; }
   Values operator()(double t) const {
     const double x = 2 * (t - from_) / (to_ - from_) - 1;
-    double T = 1, next = x;  // the polynomials T_j and T_j+1
+    double T = 1;
+    double next = x;  // the polynomials T_j and T_j+1
     Values sum = terms_[0];
     for (std::size_t j = 1; j < terms; ++j) {
       T = std::exchange(next, 2 * x * next - T);

@@ -14,8 +14,10 @@ struct Largest {
 template <typename Function>
 Largest golden_section(double low, double high, double width, Function&& f) {
   constexpr double golden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = f(left), at_right = f(right);
+  double left = high - golden * (high - low);
+  double right = low + golden * (high - low);
+  double at_left = f(left);
+  double at_right = f(right);
   while (high - low > width) {
     if (at_left > at_right) {
       high = std::exchange(right, left);

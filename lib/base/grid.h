@@ -22,7 +22,8 @@ inline constexpr double finest_grid = 100 * program_rounding;
 /// long columns about a thousand readings are looked at.
 inline double grid_of(std::span<const double> readings) {
   const std::size_t step = 1 + readings.size() / 1000;
-  double first = NAN, largest = 0;
+  double first = NAN;
+  double largest = 0;
   for (std::size_t i = 0; i < readings.size(); i += step) {
     if (std::isnan(first)) first = readings[i];
     if (std::isfinite(readings[i])) largest = std::max(largest, std::abs(readings[i]));

@@ -36,7 +36,10 @@ auto rows_by_run(auto& matrix, const auto& sizes) {
 /// The inner product in four independent partial sums: in a single sum each addition would wait for
 /// the one before it.
 inline double dot(const double* x, const double* y, std::size_t n) {
-  double a = 0, b = 0, c = 0, d = 0;
+  double a = 0;
+  double b = 0;
+  double c = 0;
+  double d = 0;
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
     a += x[i] * y[i];

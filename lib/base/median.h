@@ -33,7 +33,8 @@ inline double median(std::span<double> values) {
 inline std::vector<double> medians_of_five(const std::vector<double>& values) {
   std::vector<double> medians;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::size_t first = i < 2 ? 0 : i - 2, end = std::min(i + 3, values.size());
+    const std::size_t first = i < 2 ? 0 : i - 2;
+    const std::size_t end = std::min(i + 3, values.size());
     std::vector<double> near(&values[first], &values[first] + (end - first));
     medians.push_back(median(near));
   }

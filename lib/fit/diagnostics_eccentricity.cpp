@@ -52,8 +52,10 @@ std::vector<double> response(const ObservedRun& run, const Path& path, double r)
   std::vector<double> columns(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto [x, v] = path[i];
-    const double time = r / std::max(std::abs(v), slow * path[0][1]), by_v = run.way * rate * time,
-                 cos = by_v * std::cos(x / r), sin = by_v * std::sin(x / r);
+    const double time = r / std::max(std::abs(v), slow * path[0][1]);
+    const double by_v = run.way * rate * time;
+    const double cos = by_v * std::cos(x / r);
+    const double sin = by_v * std::sin(x / r);
     const bool position = run.column == Quantity::x;
     columns[i] = position ? time * cos : -sin;
     columns[n + i] = position ? time * sin : cos;
@@ -70,18 +72,23 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, dou
   std::vector<double> by_e = response(of, path, r);
   if (of.H) by_e = of.H->times(by_e);
   if (fit.noise->known()) fit.noise->whitener(run).apply(by_e);
-  const std::size_t own = Q.size(), q = own + 2;
+  const std::size_t own = Q.size();
+  const std::size_t q = own + 2;
   std::vector<double> columns;
   columns.reserve(q * f.size());
   for (const auto column : Q) columns.insert(columns.end(), column.begin(), column.end());
   columns.insert(columns.end(), by_e.begin(), by_e.end());
-  const double squares = dot(f, f), left = freedom - 2;
+  const double squares = dot(f, f);
+  const double left = freedom - 2;
   Triangles all(1, q, 0);
   all.add(0, f, columns);
   if (!(all.smallest_sine() > 1e-6)) return {run, 1, 0, 0, 0};
   const std::vector<double> theta = all.solve();
-  const double by_cos = theta[own], by_sin = theta[own + 1], e = std::hypot(by_cos, by_sin),
-               reduction = all.reduction(own), variance = (squares - reduction) / left;
+  const double by_cos = theta[own];
+  const double by_sin = theta[own + 1];
+  const double e = std::hypot(by_cos, by_sin);
+  const double reduction = all.reduction(own);
+  const double variance = (squares - reduction) / left;
   std::vector<double> gradient(q);  // of e
   gradient[own] = by_cos / e, gradient[own + 1] = by_sin / e;
   all.solve_transposed(0, gradient);

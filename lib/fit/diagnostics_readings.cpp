@@ -21,15 +21,24 @@
 namespace rolling {
 namespace {
 
-/// `left` is 1 - leverage. Without reading i the squares of the residuals of all are less by
-/// e^2/left, and that is the square of its distance, too. Those of a robust roll, which is that of
-/// the others, are less by e^2; the variance of what it predicts for the reading is 1/left of the
-/// noise's. The time is the number of the reading here. Where no reading counts as off, the
-/// distance is that of the one that is furthest off.
-OffReadings of_run(std::span<const double> e, std::span<const double> left, double freedom,
-                   bool robust) {
-  OffReadings found{};
-  const std::size_t n = e.size(), most = std::min<std::size_t>(n / 10 + 1, 100), runs[] = {n};
+/// The readings of one run that are off. If none is, the distance is that of the furthest one.
+struct OffOfRun {
+  std::size_t count = 0;
+  std::size_t furthest = 0;  ///< the index of the reading that is furthest off
+  double distance = 0;       ///< of that reading, in standard deviations
+};
+
+/// `left` is 1 - leverage. A least-squares fit without reading i has a sum of squares that is
+/// smaller by e^2/left; that is the square of the distance of the reading from the fit, too. A
+/// robust fit is already the fit of the other readings: without reading i its sum of squares is
+/// smaller by e^2, and the variance of its prediction for the reading is that of the noise divided
+/// by `left`.
+OffOfRun off_of_run(std::span<const double> e, std::span<const double> left, double freedom,
+                    bool robust) {
+  OffOfRun found;
+  const std::size_t n = e.size();
+  const std::size_t most = std::min<std::size_t>(n / 10 + 1, 100);
+  const std::size_t runs[] = {n};
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto lost = [&](std::size_t i) { return e[i] * e[i] / (robust ? 1 : left[i]); };
@@ -38,11 +47,13 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
                     [&](std::size_t i, std::size_t j) { return squared(i) > squared(j); });
   const double by_chance = std::sqrt(2 * std::log(static_cast<double>(n)));
   std::vector<double> others(e.begin(), e.end());
-  double squares = dot(e, e), first = 0;
+  double squares = dot(e, e);
+  double first = 0;
   for (std::size_t out = 0; out < most && --freedom >= 12;) {
     const std::size_t i = order[out];
     const double off = squared(i);
-    squares -= lost(i), others[i] = 0;
+    squares -= lost(i);
+    others[i] = 0;
     if (out++ == 0) first = off;
     const double size = squares > 1e-12 * off ? std::sqrt(off / squares * freedom) : 0;
     if (found.count == 0) found.distance = std::max(found.distance, size);
@@ -51,10 +62,7 @@ OffReadings of_run(std::span<const double> e, std::span<const double> left, doub
     if (size < levels::off || lagged(others, runs, 1) > 0.5 * dot(others, others) ||
         static_cast<double>(n) * gsl_cdf_tdist_Q(size, freedom) > levels::off_chance / 2)
       continue;
-    found = {.run = 0,
-             .count = out,
-             .time = static_cast<double>(order[0]),
-             .distance = std::sqrt(first / squares * freedom)};
+    found = {out, order[0], std::sqrt(first / squares * freedom)};
   }
   return found;
 }
@@ -73,17 +81,16 @@ OffReadings around(const Fitted& fit, bool robust) {
     std::ranges::transform(left, raw(column), left.begin(),
                            [](double all, double q) { return std::max(all - q * q, 1e-3); });
   OffReadings found{};
-  const auto rank = [](const OffReadings& x) { return std::pair(x.count > 0, x.distance); };
-  const auto e_of = by_run(e, sizes), left_of = by_run(std::as_const(left), sizes);
+  const auto rank = [](const auto& x) { return std::pair(x.count > 0, x.distance); };
+  const auto e_of = by_run(e, sizes);
+  const auto left_of = by_run(std::as_const(left), sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
     const double freedom =
         static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
-    OffReadings off = of_run(e_of[r], left_of[r], freedom, robust);
+    const OffOfRun off = off_of_run(e_of[r], left_of[r], freedom, robust);
     if (rank(off) <= rank(found)) continue;
     const ObservedRun& run = fit.model.runs()[r];
-    off.run = r;
-    off.time = run.origin + run.t[static_cast<std::size_t>(off.time)];
-    found = off;
+    found = {r, off.count, run.origin + run.t[off.furthest], off.distance};
   }
   return found;
 }
@@ -126,7 +133,8 @@ double few_reversals(const Fitted& fit) {
     const auto f = residuals[r];
     const double sigma = deviation({f.begin(), f.end()});
     for (std::size_t i = 1; i < f.size(); ++i) {
-      const double step = y[i] - y[i - 1], motion = step + f[i] - f[i - 1];
+      const double step = y[i] - y[i - 1];
+      const double motion = step + f[i] - f[i - 1];
       seen += step * motion <= 0;
       expected += gsl_cdf_ugaussian_P(-std::abs(motion) / (std::numbers::sqrt2 * sigma));
     }

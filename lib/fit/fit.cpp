@@ -19,7 +19,8 @@ namespace {
 
 /// sqrt(RSS / (n - p)); NaN where no degree of freedom is left for the noise.
 double rms_of(const Fitted& found) {
-  const std::size_t n = found.minimum.f.size(), p = found.minimum.theta.size();
+  const std::size_t n = found.minimum.f.size();
+  const std::size_t p = found.minimum.theta.size();
   if (found.degrees_left() == 0) return NAN;
   return std::sqrt(sum_of_squares(found) / static_cast<double>(n - p));
 }
@@ -49,12 +50,16 @@ FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
   result.correlations = correlations_of(covariance, result.law.size());
   if (result.law.power()) {
     const auto& [a, b] = std::tie(result.coefficients[0], result.coefficients[1]);
-    result.a = a.value, result.sigma_a = a.sigma, result.b = b.value, result.sigma_b = b.sigma;
+    result.a = a.value;
+    result.sigma_a = a.sigma;
+    result.b = b.value;
+    result.sigma_b = b.sigma;
     result.corr = result.correlations[0][1];
   }
   if (found.slope) {
     const Estimate slope = next(found.slope->value);
-    result.slope = slope.value, result.sigma_slope = slope.sigma;
+    result.slope = slope.value;
+    result.sigma_slope = slope.sigma;
   }
   for (const auto& [of_runs, estimates] :
        {std::pair(&found.v0, &result.v0), {&found.x0, &result.x0}})
@@ -107,9 +112,9 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
         form.coefficients.front().name, shown(first));
   for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
     const Estimate& c = result.coefficients[j];
-    const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0,
-               known = has_errors ? c.sigma <= levels::largest_sigma_b
-                                  : options.b || std::abs(c.value) <= 10;
+    const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0;
+    const bool known =
+        has_errors ? c.sigma <= levels::largest_sigma_b : options.b || std::abs(c.value) <= 10;
     if (is_exponent && !known)
       fail("the data do not determine {}, which comes out as {}: {}{}", form.coefficients[j].name,
            shown(c), choose_the_roll, options.fits_power() ? "; or fix it, --fix b=0" : "");
@@ -127,7 +132,9 @@ void require_roll(const Fitted& found) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
     Roll roll = found.model.roll(found.minimum.theta, r);
-    const double v0 = std::abs(found.v0[r].value), D = found.law().at(v0).D, last = run.t.back();
+    const double v0 = std::abs(found.v0[r].value);
+    const double D = found.law().at(v0).D;
+    const double last = run.t.back();
     if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
     double fastest = 0;
@@ -160,7 +167,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   require_roll(found);
   require_determined(result_of(found, rms, noise, shares), options, found);
   for (ErrorShare& share :
-       shares_of_given(route, runs, options, found, !agreement || agreement->agree()))
+       shares_of_inputs(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
   if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
   FitResult result = result_of(found, rms, noise, std::move(shares));

@@ -37,10 +37,10 @@ LawComparison compare_laws(Route route, const std::vector<Run>& runs, FitOptions
   std::vector<Fitted> all{of_means(fit_route(route, runs, options), options)};
   for (const LawForm& law : laws())
     if (&law != options.law) all.push_back(fit_beside(all.front(), law));
-  const double n = static_cast<double>(all.front().minimum.f.size()),
-               independent = independent_rows(all),
-               least =
-                   std::max(variance_of_rounding(all.front()), std::numeric_limits<double>::min());
+  const double n = static_cast<double>(all.front().minimum.f.size());
+  const double independent = independent_rows(all);
+  const double least =
+      std::max(variance_of_rounding(all.front()), std::numeric_limits<double>::min());
   LawComparison result;
   for (const Fitted& found : all) {
     LawFit& of_law = result.fits.emplace_back(LawFit{.law = &found.parameters().form()});
@@ -56,11 +56,14 @@ LawComparison compare_laws(Route route, const std::vector<Run>& runs, FitOptions
       of_law.coefficients.push_back({found.coefficients[j].value, std::sqrt(covariance[j][j])});
     of_law.correlations = correlations_of(covariance, found.coefficients.size());
   }
-  double of_asked = INFINITY, of_other = INFINITY;
+  double of_asked = INFINITY;
+  double of_other = INFINITY;
   for (const LawFit& fit : result.fits)
     if (fit.law == asked) of_asked = fit.aicc;
-    else if (fit.aicc < of_other && !(fit.law->is_power && asked->is_power))
-      result.other = fit.law, of_other = fit.aicc;
+    else if (fit.aicc < of_other && !(fit.law->is_power && asked->is_power)) {
+      result.other = fit.law;
+      of_other = fit.aicc;
+    }
   if (std::isfinite(of_asked) && result.other) result.against = of_asked - of_other;
   return result;
 }

@@ -20,12 +20,13 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t n = informative_rows(model.runs(), parameters(), *noise),
-                    p = minimum.theta.size(), left = n > p ? n - p : 0;
+  const std::size_t n = informative_rows(model.runs(), parameters(), *noise);
+  const std::size_t p = minimum.theta.size();
+  const std::size_t left = n > p ? n - p : 0;
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;
 }
 
-void report(Fitted& fit) {
+void read_off(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.parameters();
   const Law law = q.law(theta);
@@ -34,7 +35,9 @@ void report(Fitted& fit) {
     q.chain(result.gradient.data(), 1, law.c(0), by);
     return result;
   };
-  fit.coefficients.clear(), fit.v0.clear(), fit.x0.clear();
+  fit.coefficients.clear();
+  fit.v0.clear();
+  fit.x0.clear();
   std::array<double, LawForm::most> by_c{};
   for (std::size_t j = 0; j < law.size(); ++j, by_c = {}) {
     const double value = law.in_SI(j, by_c);

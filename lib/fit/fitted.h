@@ -69,9 +69,9 @@ struct Fitted {
 /// False if a search found no minimum.
 inline bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
 
-/// Writes the coefficients of the law with their gradients into the fit, and of a roll the slope,
-/// v0 and x0.
-void report(Fitted&);
+/// Reads the numbers off the minimum: writes the coefficients of the law with their gradients into
+/// the fit, and of a roll the slope, v0 and x0.
+void read_off(Fitted&);
 
 /// Throws Error if n rows, so many of which filters leave independent, are too few for p
 /// parameters, or if p = 0.

@@ -27,11 +27,15 @@ std::vector<double> column_of_run(const Run& run, Quantity q) {
 /// The output of a filter. What may have read a missing reading is missing, too.
 Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomputed input) {
   std::vector<double>& y = input.values;
-  const std::size_t n = t.size(), reach = 2 * filter.reach;
+  const std::size_t n = t.size();
+  const std::size_t reach = 2 * filter.reach;
   if (y.size() != n || n == 0) return {};
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < n; ++i)
-    if (!std::isfinite(y[i])) missing.push_back(i), y[i] = 0;
+    if (!std::isfinite(y[i])) {
+      missing.push_back(i);
+      y[i] = 0;
+    }
   Recomputed output{filter.apply(t, y), input.reach + filter.reach};
   for (const std::size_t i : missing)
     for (std::size_t k = i - std::min(i, reach); k < std::min(i + reach + 1, n); ++k)
@@ -44,7 +48,8 @@ Recomputed applied(const LinearFilter& filter, std::span<const double> t, Recomp
 double roughness(std::span<const double> t, std::span<const double> y) {
   std::vector<double> all;
   for (std::size_t first = 0; first + 4 <= t.size(); ++first) {
-    double sum = 0, squares = 0;
+    double sum = 0;
+    double squares = 0;
     for (std::size_t i = first; i < first + 4; ++i) {
       double weight = 1;
       for (std::size_t k = first; k < first + 4; ++k)
@@ -68,21 +73,30 @@ double last_place(double y, double least) {
 /// Compares a column that was computed again with that of the run, both at the times t.
 void compare(std::span<const double> t, const Recomputed& computed,
              const std::vector<double>& given, Mismatch& result) {
-  const std::size_t n = given.size(), reach = computed.reach;
+  const std::size_t n = given.size();
+  const std::size_t reach = computed.reach;
   if (n < 2 * reach + 3) return;
   std::vector<double> off(n);
-  double along = 0, computed2 = 0, off2 = 0;  // sums of products inside the run
+  double along = 0;
+  double computed2 = 0;
+  double off2 = 0;  // sums of products inside the run
   double largest = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double y = computed.values[i], difference = y - given[i];
+    const double y = computed.values[i];
+    const double difference = y - given[i];
     off[i] = std::abs(difference);
     if (!std::isfinite(difference)) continue;
     largest = std::max(largest, std::abs(given[i]));
-    if (i >= reach && i + reach < n)
-      along += y * difference, computed2 += y * y, off2 += difference * difference;
+    if (i >= reach && i + reach < n) {
+      along += y * difference;
+      computed2 += y * y;
+      off2 += difference * difference;
+    }
   }
-  const double large = typical_size(given), typical = typical_size(off),
-               unseen = roughness(t, computed.values) / 2, least = program_rounding * largest;
+  const double large = typical_size(given);
+  const double typical = typical_size(off);
+  const double unseen = roughness(t, computed.values) / 2;
+  const double least = program_rounding * largest;
   const auto beyond_rounding = [&](std::size_t i) {
     return off[i] > unseen && (given[i] == 0 || off[i] > least + last_place(given[i], least) / 2);
   };
@@ -95,7 +109,10 @@ void compare(std::span<const double> t, const Recomputed& computed,
   for (std::size_t i = 0; i < n; ++i) {
     const bool differs =
         off[i] > most && (off[i] > 0.01 * std::abs(given[i]) || beyond_rounding(i));
-    if (differs) (i < reach ? result.begin : i + reach >= n ? result.end : result.inside) = true;
+    if (!differs) continue;
+    if (i < reach) result.begin = true;
+    else if (i + reach >= n) result.end = true;
+    else result.inside = true;
   }
 }
 

@@ -39,16 +39,106 @@ double way_before_turn(bool position, const std::vector<double>& t,
   }
   const std::vector<double> smooth = medians_of_five(x);
   const auto [least, greatest] = std::ranges::minmax(smooth);
-  const double begin = smooth.front(), end = smooth.back(),
-               up = std::min(greatest - begin, greatest - end),
-               down = std::min(begin - least, end - least);
+  const double begin = smooth.front();
+  const double end = smooth.back();
+  const double up = std::min(greatest - begin, greatest - end);
+  const double down = std::min(begin - least, end - least);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
-  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size())),  // of a sum
-      limit = 0.002 * (greatest - least) + errors * deviation(x);
+  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // of a sum
+  const double limit = 0.002 * (greatest - least) + errors * deviation(x);
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
 
 }  // namespace
+
+Parameters::Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref,
+                       double x_ref)
+    : fixed_{options.a, options.b}, v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
+      position_(position), runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {}
+
+Parameters::Parameters(const FitOptions& options, double v_unit)
+    : fixed_{options.a, options.b}, v0_(0), v_unit_(v_unit) {}
+
+Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) const {
+  Parameters other = *this;
+  other.form_ = &form;
+  other.D_unit_ = D_unit;
+  other.v_unit_ = v_unit;
+  other.fixed_ = {};
+  return other;
+}
+
+std::size_t Parameters::coefficients() const {
+  std::size_t free = 0;
+  for (std::size_t j = 0; j < form_->coefficients.size(); ++j) free += !fixed_[j];
+  return free;
+}
+
+Law Parameters::law(const std::vector<double>& theta) const {
+  std::array<double, LawForm::most> c{};
+  std::size_t next = count() - shared();
+  for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
+    c[j] = fixed_[j] ? *fixed_[j] : theta[next++];
+  if (is_power())
+    c[0] = fixed_[0] ? *fixed_[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
+  return {*form_, c, D_unit_, v_unit_};
+}
+
+double Parameters::v0(const std::vector<double>& theta, std::size_t run) const {
+  return v0_ ? std::abs(*v0_) : theta[run * own()] * v_ref_;
+}
+
+double Parameters::x0(const std::vector<double>& theta, std::size_t run) const {
+  if (!position_) return 0;
+  return x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
+}
+
+double Parameters::slope(const std::vector<double>& theta, double given) const {
+  return slope_ ? theta.back() * slope_unit : given;
+}
+
+Parameters Parameters::of_one_run() const {
+  Parameters one = *this;
+  one.runs_ = 1;
+  one.slope_ = false;
+  return one;
+}
+
+std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
+                                             std::size_t run) const {
+  const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<double> one(at(run * own()), at((run + 1) * own()));
+  one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
+  return one;
+}
+
+std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v0,
+                                      const std::vector<double>& x0, double slope) const {
+  std::vector<double> all;
+  for (std::size_t r = 0; r < runs_; ++r) {
+    if (!v0_) all.push_back(v0[r] / v_ref_);
+    if (free_x0()) all.push_back(x0[r] / x_ref_);
+  }
+  if (!fixed_[0]) all.push_back(std::log(law(v_unit_)));
+  if (!fixed_[1]) all.push_back(law.b);
+  if (slope_) all.push_back(slope / slope_unit);
+  return all;
+}
+
+void Parameters::chain(double* to, std::size_t stride, double c0,
+                       const Derivatives& by) const noexcept {
+  const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
+  if (!v0_) put(by.v0 * v_ref_);
+  if (free_x0()) put(by.x0 * x_ref_);
+  for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
+    if (fixed_[j]) continue;
+    double by_theta = by.by_c[j];
+    if (is_power() && j == 0) by_theta *= c0;  // theta holds ln c0
+    if (j == 1 && fixed_[0]) by_theta += c0 * std::log(v_unit_) * by.by_c[0];
+    put(by_theta);
+  }
+  if (slope_) put(by.slope * slope_unit);
+}
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
               double slope, const FitOptions& options) {
@@ -190,7 +280,8 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
 
 std::vector<double> Model::raw_column(const std::vector<double>& theta, std::size_t r) const {
   const RawModel at = raw(theta, r);
-  std::vector<double> column, slopes(parameters_.columns());
+  std::vector<double> column;
+  std::vector<double> slopes(parameters_.columns());
   column.reserve(runs()[r].t.size());
   for (double t : runs()[r].t) column.push_back(at(t, slopes.data(), 1));
   return column;
@@ -210,7 +301,8 @@ System system_of(Model model, std::shared_ptr<const Noise> noise) {
     for (std::size_t r = 0; r < model.runs().size(); ++r) {
       const ObservedRun& run = model.runs()[r];
       const RawModel raw = model.raw(theta, r);
-      const std::size_t n = run.t.size(), rows = run.y.size();
+      const std::size_t n = run.t.size();
+      const std::size_t rows = run.y.size();
       std::vector<double> all(n * (1 + columns));  // the residuals, then the columns of J
       for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);
       if (run.H) all = run.H->times(all);

@@ -27,10 +27,12 @@
 #include "noise/noise.h"
 #include "noise/response.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <span>
 #include <utility>
 
 namespace rolling {
@@ -47,80 +49,36 @@ class Parameters {
 
   Parameters() = default;
   /// Of rolls under a v^b. `position`: the raw column is a position, so that each run has an x0.
-  Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref, double x_ref)
-      : a_(options.a), b_(options.b), v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
-        position_(position), runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {}
+  Parameters(const FitOptions&, bool position, std::size_t runs, double v_ref, double x_ref);
   /// Of D = a v^b alone.
-  Parameters(const FitOptions& options, double v_unit)
-      : a_(options.a), b_(options.b), v0_(0), v_unit_(v_unit) {}
+  Parameters(const FitOptions&, double v_unit);
   /// The same parameters with another law, all of whose coefficients are free.
-  Parameters with(const LawForm& form, double D_unit, double v_unit) const {
-    Parameters other = *this;
-    other.form_ = &form, other.D_unit_ = D_unit, other.v_unit_ = v_unit;
-    other.a_.reset(), other.b_.reset();
-    return other;
-  }
+  Parameters with(const LawForm&, double D_unit, double v_unit) const;
 
   double speed_unit() const { return v_unit_; }  ///< [m/s], see Law
   const LawForm& form() const { return *form_; }
   /// The value of coefficient j in SI units if it is fixed.
-  std::optional<double> fixed(std::size_t j) const {
-    return j == 0 ? a_ : j == 1 ? b_ : std::nullopt;
-  }
+  std::optional<double> fixed(std::size_t j) const { return fixed_[j]; }
   /// The number of free coefficients of the law.
-  std::size_t coefficients() const { return form_->coefficients.size() - !!a_ - !!b_; }
+  std::size_t coefficients() const;
   std::size_t shared() const { return coefficients() + slope_; }
   std::size_t own() const { return !v0_ + free_x0(); }
   std::size_t columns() const { return own() + shared(); }
   std::size_t count() const { return runs_ * own() + shared(); }
 
-  Law law(const std::vector<double>& theta) const {
-    std::array<double, LawForm::most> c{};
-    const double* from = theta.data() + (count() - shared());  // past the end if all are fixed
-    for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
-      c[j] = j == 0 && a_ ? 0 : j == 1 && b_ ? *b_ : *from++;
-    if (a_) c[0] = *a_ * std::pow(v_unit_, c[1]) / D_unit_;
-    else if (logarithm()) c[0] = std::exp(c[0]);
-    return {*form_, c, D_unit_, v_unit_};
-  }
-  double v0(const std::vector<double>& theta, std::size_t run) const {
-    return v0_ ? std::abs(*v0_) : theta[run * own()] * v_ref_;
-  }
-  double x0(const std::vector<double>& theta, std::size_t run) const {
-    return !position_ ? 0 : x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
-  }
+  Law law(const std::vector<double>& theta) const;
+  double v0(const std::vector<double>& theta, std::size_t run) const;
+  double x0(const std::vector<double>& theta, std::size_t run) const;
   /// The slope of the mat along growing x; `given` if the slope is not a parameter.
-  double slope(const std::vector<double>& theta, double given) const {
-    return slope_ ? theta.back() * slope_unit : given;
-  }
+  double slope(const std::vector<double>& theta, double given) const;
   bool fits_slope() const { return slope_; }
   bool has_x0() const { return position_; }
   /// The parameters of a single run on a mat whose slope is fixed.
-  Parameters of_one_run() const {
-    Parameters one = *this;
-    one.runs_ = 1;
-    one.slope_ = false;
-    return one;
-  }
-  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const {
-    const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::vector<double> one(at(run * own()), at((run + 1) * own()));
-    one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
-    return one;
-  }
+  Parameters of_one_run() const;
+  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
   /// The theta of a v^b with these v0 and x0 (one for each run), and this slope.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
-                            const std::vector<double>& x0, double slope = 0) const {
-    std::vector<double> all;
-    for (std::size_t r = 0; r < runs_; ++r) {
-      if (!v0_) all.push_back(v0[r] / v_ref_);
-      if (free_x0()) all.push_back(x0[r] / x_ref_);
-    }
-    if (!a_) all.push_back(std::log(law(v_unit_)));
-    if (!b_) all.push_back(law.b);
-    if (slope_) all.push_back(slope / slope_unit);
-    return all;
-  }
+                            const std::vector<double>& x0, double slope = 0) const;
 
   /// Partial derivatives of a number: by the coefficients of the law, by the v0 and x0 of its run,
   /// and by the slope.
@@ -130,28 +88,23 @@ class Parameters {
   };
   /// Converts derivatives to the elements of theta, those of the run first and then the shared
   /// ones, and writes them `stride` apart. c0 is the first coefficient under theta.
-  void chain(double* to, std::size_t stride, double c0, const Derivatives& by) const noexcept {
-    const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
-    if (!v0_) put(by.v0 * v_ref_);
-    if (free_x0()) put(by.x0 * x_ref_);
-    for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
-      if (fixed(j)) continue;
-      put(j == 0 && logarithm() ? c0 * by.by_c[0]
-          : j == 1 && a_        ? by.by_c[1] + c0 * std::log(v_unit_) * by.by_c[0]
-                                : by.by_c[j]);
-    }
-    if (slope_) put(by.slope * slope_unit);
-  }
+  void chain(double* to, std::size_t stride, double c0, const Derivatives& by) const noexcept;
 
  private:
   bool free_x0() const { return position_ && !x0_; }
-  bool logarithm() const { return form_ == &laws().front(); }
+  bool is_power() const { return form_ == &laws().front(); }
 
   const LawForm* form_ = &laws().front();
-  std::optional<double> a_, b_, v0_, x0_;
-  bool slope_ = false, position_ = false;
+  std::array<std::optional<double>, LawForm::most> fixed_ = {};  // of a v^b, in SI units
+  std::optional<double> v0_;
+  std::optional<double> x0_;
+  bool slope_ = false;
+  bool position_ = false;
   std::size_t runs_ = 0;
-  double v_ref_ = 1, x_ref_ = 1, D_unit_ = 1, v_unit_ = 1;
+  double v_ref_ = 1;
+  double x_ref_ = 1;
+  double D_unit_ = 1;
+  double v_unit_ = 1;
 };
 
 /// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where

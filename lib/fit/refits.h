@@ -34,16 +34,16 @@ std::optional<Agreement> agreement_of(Route, const std::vector<Run>&, const FitO
 /// The joint fit of runs that are known to disagree, with the values that agreement_of() gives it.
 Fitted fit_of_disagreeing(Route, const std::vector<Run>&, const FitOptions&);
 
-/// The contribution of each given number with an uncertainty. Runs with the same value and
-/// uncertainty have the same body; they change together. The derivative is a central difference of
-/// two fits, with the number one standard uncertainty (or a tenth of the number, if that is less)
-/// above and below its value. On the routes that read D, which was computed with these numbers, D
-/// is computed again from the same accelerations. Where the runs do not agree, their law is that of
-/// their means (see agreement_of()) for the changed number too. If a alone depends on the number,
-/// in proportion to (K + 1) R/g, nothing is fitted again. Throws Error if the fit itself is not
-/// possible.
-std::vector<ErrorShare> shares_of_given(Route, const std::vector<Run>&, const FitOptions&,
-                                        const Fitted&, bool agree);
+/// The contribution of each input quantity (K, R, g, slope) that has an uncertainty. Runs with the
+/// same value and uncertainty have the same body; they change together. The derivative is a central
+/// difference of two fits, with the number one standard uncertainty (or a tenth of the number, if
+/// that is less) above and below its value. On the routes that read D, which was computed with
+/// these numbers, D is computed again from the same accelerations. Where the runs do not agree,
+/// their law is that of their means (see agreement_of()) for the changed number too. If a alone
+/// depends on the number, in proportion to (K + 1) R/g, nothing is fitted again. Throws Error if
+/// the fit itself is not possible.
+std::vector<ErrorShare> shares_of_inputs(Route, const std::vector<Run>&, const FitOptions&,
+                                         const Fitted&, bool agree);
 
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.

@@ -24,8 +24,10 @@ LocalPower local_power(const Fitted& fit, double v) {
   const Law law = fit.law();
   if (const auto power = law.power())
     return {{std::log(power->a), power->b}, {{1 / power->a, 0}, {0, 1}}};
-  std::array<double, LawForm::most> by_fast{}, by_slow{};
-  const double fast = law.at(v, by_fast.data()).D, slow = law.at(v / 4, by_slow.data()).D;
+  std::array<double, LawForm::most> by_fast{};
+  std::array<double, LawForm::most> by_slow{};
+  const double fast = law.at(v, by_fast.data()).D;
+  const double slow = law.at(v / 4, by_slow.data()).D;
   const auto through = [&](double of_fast, double of_slow) {
     const double b = (of_fast - of_slow) / std::log(4.0);
     return Pair{of_fast - b * std::log(v), b};
@@ -85,8 +87,8 @@ Fitted around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>&
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
   if (one.covariance.bb > 0 || !joint.is_roll()) return one.best_log_v();
   Roll roll = joint.model.roll(joint.minimum.theta, one.run);
-  const double last = joint.model.runs()[one.run].t.back(),
-               end = std::min(last, roll.stop_until(last));
+  const double last = joint.model.runs()[one.run].t.back();
+  const double end = std::min(last, roll.stop_until(last));
   return std::log(roll.at(end).x / end);
 }
 
@@ -135,7 +137,8 @@ std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& opt
   double sigma_slope = 0;
   if (joint.slope) common.push_back(take_slope(laws, log_v, freedom, joint, sigma_slope));
   const JointLaw mean = scattered_mean(laws, log_v, freedom, common);
-  double &a = joint.coefficients[0].value, &b = joint.coefficients[1].value;
+  double& a = joint.coefficients[0].value;
+  double& b = joint.coefficients[1].value;
   if (!options.a) a = std::exp(mean.law.a);
   if (!options.b) b = mean.law.b;
   const Symmetric& C = mean.covariance;

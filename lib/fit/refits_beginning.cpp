@@ -37,10 +37,12 @@ struct BeginningSearch {
     const auto& t = fit.model.runs().front().t;
     const System system = fit.system();
     system.evaluate(fit.minimum.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-      const std::size_t n = f.size(), q = system.columns();
+      const std::size_t n = f.size();
+      const std::size_t q = system.columns();
       for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
         ++tests;
-        std::vector<double> f_of(f.begin(), f.end()), J_of(J.begin(), J.end());  // of the others
+        std::vector<double> f_of(f.begin(), f.end());
+        std::vector<double> J_of(J.begin(), J.end());  // of the others
         std::fill_n(f_of.begin(), k, 0.0);
         for (std::size_t j = 0; j < q; ++j) std::fill_n(&J_of[j * n], k, 0.0);
         Triangles others(1, q, 0);
@@ -50,13 +52,16 @@ struct BeginningSearch {
         std::vector<double> e(f.begin(), f.end());  // around the roll of the others
         for (std::size_t i = 0; i < J.size(); ++i) e[i % n] += J[i] * step[i / n];
         const std::span<const double> of_others = std::span(e).subspan(k);
-        const double gone = static_cast<double>(k), squares = dot(of_others, of_others),
-                     left = static_cast<double>(n - q - k);
+        const double gone = static_cast<double>(k);
+        const double squares = dot(of_others, of_others);
+        const double left = static_cast<double>(n - q - k);
         if (!(squares > 0)) continue;
-        const double noise = std::max(squares / left, local_variance(std::span(e).first(k + 5))),
-                     p = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
-        if (p < found.p)
-          found = {run, k, t[k] - t[0], p}, rest.assign(of_others.begin(), of_others.end());
+        const double noise = std::max(squares / left, local_variance(std::span(e).first(k + 5)));
+        const double p = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
+        if (p < found.p) {
+          found = {run, k, t[k] - t[0], p};
+          rest.assign(of_others.begin(), of_others.end());
+        }
       }
     });
   }

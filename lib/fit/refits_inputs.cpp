@@ -45,8 +45,8 @@ bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& optio
 
 }  // namespace
 
-std::vector<ErrorShare> shares_of_given(Route route, const std::vector<Run>& runs,
-                                        const FitOptions& options, const Fitted& fit, bool agree) {
+std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& runs,
+                                         const FitOptions& options, const Fitted& fit, bool agree) {
   std::vector<ErrorShare> all;
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
@@ -76,7 +76,8 @@ std::vector<ErrorShare> shares_of_given(Route route, const std::vector<Run>& run
       const double step = value.value == 0 || number.value == &Body::slope
                               ? value.sigma
                               : std::min(value.sigma, 0.1 * std::abs(value.value));
-      const auto above = numbers_with(step), below = numbers_with(-step);
+      const auto above = numbers_with(step);
+      const auto below = numbers_with(-step);
       std::vector<double> changes;
       for (std::size_t j = 0; j < above.size(); ++j)
         changes.push_back((above[j].value - below[j].value) / 2 * value.sigma / step);

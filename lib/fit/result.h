@@ -41,10 +41,10 @@ struct OffReadings {
 };
 
 /// The contribution of one source of error to the standard errors, which are the root sums of
-/// squares of the contributions. That of a given number is the change of the result when the number
-/// changes by one standard uncertainty.
+/// squares of the contributions. That of an input quantity is the change of the result when the
+/// quantity changes by one standard uncertainty.
 struct ErrorShare {
-  /// "noise"; the name of a given number, "K", or "K 0.5" where the runs have several; or "bias"
+  /// "noise"; the name of an input quantity, "K", or "K 0.5" where the runs have several; or "bias"
   std::string of;
   Matrix covariance;  ///< contribution to that of Fitted::numbers(), first of the coefficients
 

@@ -19,12 +19,12 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
-    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared()),
-               end = theta.end() - power.slope.has_value();
+    const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared());
+    const auto end = theta.end() - power.slope.has_value();
     theta.insert(theta.erase(first, end), c.begin(), c.end());
     improve(fit.minimum, fit.system(), theta);
   }
-  if (was_found(fit)) report(fit);
+  if (was_found(fit)) read_off(fit);
   return fit;
 }
 

@@ -35,7 +35,8 @@ struct Maker {
 /// correlated noise: so the roll without a filter is the one to compare with.
 Maker most_likely(const std::vector<Run>& all, const std::vector<Rows>& rows,
                   const FitOptions& options, const Fitted& plain) {
-  const double least = std::exp(-12), most = std::exp(4);
+  const double least = std::exp(-12);
+  const double most = std::exp(4);
   const std::vector<double>& theta = plain.minimum.theta;
   const auto model_of = [&](const std::vector<Response>& responses) {
     return Model(observe(Route::velocity, all, rows, responses, options), plain.parameters());
@@ -69,7 +70,8 @@ std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
 /// or a gap; it returns false if that would be half of a run: what is left would be another run.
 bool leave_out_irregular(const std::vector<Run>& all, std::vector<Rows>& rows, std::size_t reach) {
   for (std::size_t r = 0; r < all.size(); ++r) {
-    const std::size_t n = all[r].t.size(), before = rows[r].size();
+    const std::size_t n = all[r].t.size();
+    const std::size_t before = rows[r].size();
     const auto gaps = gaps_before(all[r].t);
     std::erase_if(rows[r], [&](std::size_t i) {
       return i < reach || i + reach >= n || gaps[i + reach] > gaps[i - reach];
@@ -130,8 +132,10 @@ std::optional<Fitted> fit_differences(const std::vector<Run>& all, const FitOpti
   for (std::size_t r = 0; r < all.size(); ++r) {
     Run& head = heads.emplace_back();
     head.body = all[r].body;
-    for (std::size_t i = 0; i < std::min(all[r].t.size(), searched); ++i)
-      head.t.push_back(all[r].t[i]), head.v.push_back(all[r].v[i]);
+    for (std::size_t i = 0; i < std::min(all[r].t.size(), searched); ++i) {
+      head.t.push_back(all[r].t[i]);
+      head.v.push_back(all[r].v[i]);
+    }
   }
   std::vector<Rows> head_rows = usable(Route::velocity, heads);
   try {

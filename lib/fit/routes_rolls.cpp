@@ -64,7 +64,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.model.runs(), {adopted ? found.share : 0});
   if (adopted) fit.minimum = search(fit.model, fit.system(), {fit.minimum.theta}, options);
-  report(fit);
+  read_off(fit);
 }
 
 }  // namespace
@@ -98,8 +98,11 @@ Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> row
       const auto plain = noise->known() ? observe(route, all, rows, {}, options) : runs;
       guess = first_guess(plain, options);
     }
-    if (options.min_speed <= 0) responses = {}, rows.clear();  // frees memory: no round follows
-    fit = {};                                                  // frees memory
+    if (options.min_speed <= 0) {  // no round follows: frees memory
+      responses = {};
+      rows.clear();
+    }
+    fit = {};  // frees memory
     fit = fit_from(*guess, std::move(runs), std::move(noise), options);
     guess->starts.front() = fit.minimum.theta;
     if (options.min_speed <= 0 ||

@@ -25,8 +25,8 @@ Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
       system.residuals() * runs.size() > many)
     return best;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double end = runs[r].t.back(),
-                 step = end / static_cast<double>(std::max<std::size_t>(runs[r].t.size(), 2) - 1);
+    const double end = runs[r].t.back();
+    const double step = end / static_cast<double>(std::max<std::size_t>(runs[r].t.size(), 2) - 1);
     for (double before = INFINITY; best.rss < before * (1 - 1e-6);) {
       before = best.rss;
       for (const double rows : {-1.0, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0}) try {
@@ -56,7 +56,7 @@ Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
   Model model(std::move(runs), start.parameters);
   Minimum minimum = search(model, system_of(model, noise), start.starts, options);
   Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
-  report(fit);
+  read_off(fit);
   return fit;
 }
 

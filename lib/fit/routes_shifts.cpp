@@ -27,11 +27,13 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
   constexpr std::size_t most = 4096;
   std::size_t n = 0;
   for (const ObservedRun& run : runs) n += run.y.size();
-  std::vector<double> v, D;
+  std::vector<double> v;
+  std::vector<double> D;
   double widest = 2;
   for (const ObservedRun& run : runs)
     for (std::size_t i = 0; i < run.y.size(); i += (n + most - 1) / most) {
-      v.push_back(run.t[i]), D.push_back(run.y[i]);
+      v.push_back(run.t[i]);
+      D.push_back(run.y[i]);
       widest = std::max(widest, std::abs(std::log(v.back() / v_ref)));
     }
   std::vector<double> exponents;
@@ -42,14 +44,19 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
   PowerLaw best{0, 0};
   for (double b : exponents) {
     const PowerLaw unit{std::pow(v_ref, -b), b};
-    double mm = 0, mD = 0;
+    double mm = 0;
+    double mD = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
       const double m = unit(v[i]);
-      mm += m * m, mD += m * D[i];
+      mm += m * m;
+      mD += m * D[i];
     }
-    const double height = options.a ? *options.a / unit.a : mD / mm,
-                 rss = height * (height * mm - 2 * mD);  // but for the squares of D
-    if (height > 0 && rss < least) least = rss, best = {unit.a * height, b};
+    const double height = options.a ? *options.a / unit.a : mD / mm;
+    const double rss = height * (height * mm - 2 * mD);  // but for the squares of D
+    if (height > 0 && rss < least) {
+      least = rss;
+      best = {unit.a * height, b};
+    }
   }
   if (best.a == 0) fail("D is 0 or has the other sign than v, as if the mat drove the body on");
   return best;
@@ -64,11 +71,13 @@ Rows shift_rows(const Run& run, const FitOptions& options, bool logarithms, doub
     if (std::isfinite(run.v[i]) && rolls(i)) sum += run.v[i];
   // What is left where the terms of a sum cancel is 0: a share of the median size, which no single
   // reading can shift.
-  const double way = sum < 0 ? -1 : 1, least_v = program_rounding * typical_size(run.v),
-               least_D = logarithms ? program_rounding * typical_size(run.D) : -INFINITY;
+  const double way = sum < 0 ? -1 : 1;
+  const double least_v = program_rounding * typical_size(run.v);
+  const double least_D = logarithms ? program_rounding * typical_size(run.D) : -INFINITY;
   Rows rows;
   for (std::size_t i = 0; i < run.v.size(); ++i) {
-    const double v = way * run.v[i], D = way * run.D[i];
+    const double v = way * run.v[i];
+    const double D = way * run.D[i];
     if (v > least_v && v >= options.min_speed && std::isfinite(v) && std::isfinite(D) &&
         D > least_D && rolls(i))
       rows.push_back(i);
@@ -85,7 +94,8 @@ std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std:
     if (rows[r].empty()) continue;
     const double way = run.v[rows[r].front()] < 0 ? -1 : 1;
     ObservedRun& seen = runs.emplace_back();
-    seen.column = Quantity::D, seen.logarithm = logarithms;
+    seen.column = Quantity::D;
+    seen.logarithm = logarithms;
     for (const std::size_t i : rows[r]) {
       seen.t.push_back(way * run.v[i]);
       seen.y.push_back(logarithms ? std::log(way * run.D[i]) : way * run.D[i]);
@@ -99,7 +109,8 @@ std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std:
 }
 
 Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitOptions& options) {
-  double sum = 0, n = 0;
+  double sum = 0;
+  double n = 0;
   for (const ObservedRun& run : runs)
     for (const double v : run.t) sum += std::log(v), ++n;
   return {options, std::exp(sum / n)};
@@ -154,9 +165,10 @@ void carry_noise(Fitted& line, const std::vector<Run>& runs, const std::vector<R
     const auto shift = [&, by = *runs[r].shift_of](double a) {
       return way * shift_from_acceleration(by.body, by.geometry, way * a);
     };
-    const BandMatrix D = responses[r].of[Quantity::D]->of_rows(rows[r]),
-                     v = responses[r].of[Quantity::v]->of_rows(rows[r]);
-    const std::vector<double> accelerations = D.times(raw), speeds = v.times(raw);
+    const BandMatrix D = responses[r].of[Quantity::D]->of_rows(rows[r]);
+    const BandMatrix v = responses[r].of[Quantity::v]->of_rows(rows[r]);
+    const std::vector<double> accelerations = D.times(raw);
+    const std::vector<double> speeds = v.times(raw);
     const std::size_t begin = B.front().size();
     for (std::vector<double>& column : B) column.resize(begin + raw.size());
     for (std::size_t i = 0; i < speeds.size(); ++i, ++point) {
@@ -164,21 +176,24 @@ void carry_noise(Fitted& line, const std::vector<Run>& runs, const std::vector<R
       // quotient. Where D of the roll is not positive, its relative noise is infinite; 1e100 stands
       // for that.
       constexpr double step = 1e-4;
-      const double a_i = accelerations[i], v_i = speeds[i], D_i = shift(a_i),
-                   by_D = D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100,
-                   by_v = v_i > 0 ? law.b / v_i : 0;
+      const double a_i = accelerations[i];
+      const double v_i = speeds[i];
+      const double D_i = shift(a_i);
+      const double by_D = D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100;
+      const double by_v = v_i > 0 ? law.b / v_i : 0;
       const std::size_t first = std::min(D.first(i), v.first(i));
       std::vector<double> e(std::max(D.end(i), v.end(i)) - first);  // by each raw reading
       const auto add = [&](const BandMatrix& H, double factor) {
         for (std::size_t k = H.first(i); k < H.end(i); ++k)
           e[k - first] += factor * H.row(i)[k - H.first(i)];
       };
-      add(D, by_D), add(v, by_v);
+      add(D, by_D);
+      add(v, by_v);
       const double s = std::sqrt(noise.variance * dot(e, e));
       const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm_of_noise(s) : Estimate{};
-      const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0,
-                   bias = (D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0) +
-                          (D_i > 0 ? log_noise.value : 0);
+      const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
+      const double bias =
+          (D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0) + (D_i > 0 ? log_noise.value : 0);
       for (std::size_t j = 0; j < Q.size(); ++j) {
         along[j] += Q[j][point] * bias;
         for (std::size_t k = 0; k < e.size(); ++k)
@@ -210,7 +225,8 @@ Fitted fit_log_log(const std::vector<Run>& all, const FitOptions& options,
     fail("no row has v > 0 and D > 0: there is no logarithm to fit");
   std::optional<Fitted> roll = known_roll(runs, options, theirs);
   std::vector<Rows> rows;
-  std::size_t all_rows = 0, positive = 0;
+  std::size_t all_rows = 0;
+  std::size_t positive = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     // Behind the stop v and D are noise alone, and where both happen to be positive their
     // logarithms are far from the line.
@@ -218,7 +234,8 @@ Fitted fit_log_log(const std::vector<Run>& all, const FitOptions& options,
         roll ? roll->model.runs()[r].origin + roll->model.roll(roll->minimum.theta, r).stop_time()
              : INFINITY;
     rows.push_back(shift_rows(runs[r], options, true, stop));
-    all_rows += shift_rows(runs[r], options, false).size(), positive += rows.back().size();
+    all_rows += shift_rows(runs[r], options, false).size();
+    positive += rows.back().size();
   }
   std::vector<ObservedRun> logarithms = observed_shifts(runs, rows, options, true);
   const Parameters q = parameters_of_shifts(logarithms, options);

@@ -33,8 +33,8 @@ ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
 /// stiff where outliers may be left. On a level mat a body rests from where they become 0.
 std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options) {
   const bool level = run.body.slope == 0 && !options.fit_slope;
-  const std::size_t n = run.t.size(),
-                    terms = std::min<std::size_t>({n, 2 + n / 4, options.robust ? 3U : 7U});
+  const std::size_t n = run.t.size();
+  const std::size_t terms = std::min<std::size_t>({n, 2 + n / 4, options.robust ? 3U : 7U});
   const double half = std::max(run.t.back() / 2, std::numeric_limits<double>::min());
   Triangles R(1, terms, 0);
   std::vector<double> powers(terms);
@@ -47,9 +47,12 @@ std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options)
   std::vector<double> speeds;
   bool rests = false;
   for (const double t : run.t) {
-    double y = 0, slope = 0;  // by u = t/half - 1
-    for (std::size_t j = terms; j-- > 0;)
-      slope = slope * (t / half - 1) + y, y = y * (t / half - 1) + c[j];
+    double y = 0;
+    double slope = 0;  // by u = t/half - 1
+    for (std::size_t j = terms; j-- > 0;) {
+      slope = slope * (t / half - 1) + y;
+      y = y * (t / half - 1) + c[j];
+    }
     const double v = run.way * (run.column == Quantity::x ? slope / half : y);
     rests |= level && v <= 0 && !speeds.empty() && speeds.back() > 0;
     speeds.push_back(rests || (level && v < 0) ? 0 : v);
@@ -110,10 +113,10 @@ struct EvenRoll {
 
 EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   const Body& body = thin.front().run.body;
-  const double time = thin.front().run.t.back(),
-               least = 1e-3 * body.R *
-                       std::max(std::abs(body.slope),
-                                thin.front().fastest() * (body.K + 1) / body.g / time);
+  const double time = thin.front().run.t.back();
+  const double least =
+      1e-3 * body.R *
+      std::max(std::abs(body.slope), thin.front().fastest() * (body.K + 1) / body.g / time);
   Triangles all(1, 1 + fit_slope, 0);
   for (const auto& [run, way, turns, speeds] : thin) {
     const double rate = run.body.g / (run.body.K + 1);
@@ -121,8 +124,8 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
     for (std::size_t i = 1; i < speeds.size(); ++i) {
       const double by_slope = -rate * run.way * (run.t[i] - run.t[0]);
       if (speeds[i] != 0) rolled += std::copysign(run.t[i] - run.t[i - 1], speeds[i]);
-      double f = speeds[0] - speeds[i] + (fit_slope ? 0 : by_slope * run.body.slope),
-             J[] = {-rate / run.body.R * rolled, by_slope};
+      double f = speeds[0] - speeds[i] + (fit_slope ? 0 : by_slope * run.body.slope);
+      double J[] = {-rate / run.body.R * rolled, by_slope};
       all.add(0, {&f, 1}, std::span(J).first(1 + fit_slope));
     }
   }
@@ -135,7 +138,8 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
 /// even deceleration.
 std::vector<std::vector<double>> starts(const std::vector<Thinned>& thin, const Parameters& q,
                                         const FitOptions& options) {
-  std::vector<double> v0, x0;
+  std::vector<double> v0;
+  std::vector<double> x0;
   for (const auto& [run, most, turns, speeds] : thin) {
     v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
     x0.push_back(run.y[0] - run.way * v0.back() * run.t[0]);
@@ -151,16 +155,17 @@ std::vector<std::vector<double>> starts(const std::vector<Thinned>& thin, const 
   return all;
 }
 
-/// Throws Error if the best roll, of this sum of squares, is no nearer than rest, or if a run comes
-/// back although its mat is level, and the roll is far from it, as false echoes alone do not make
-/// it.
+/// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well.
+/// Throws Error, too, if the body of a run comes back on a level mat and the best roll is far from
+/// the readings; a few false echoes do not bring it so far.
 void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions& options) {
   constexpr double far = 0.1;  // of the way or of the highest speed
-  double square = 0, at_rest = 0;
+  double square = 0;
+  double at_rest = 0;
   for (const Thinned& of : thin) {
     const ObservedRun& run = of.run;
-    const double n = static_cast<double>(run.t.size()),
-                 x = run.column == Quantity::x
+    const double n = static_cast<double>(run.t.size());
+    const double x = run.column == Quantity::x
                          ? options.x0.value_or(std::accumulate(run.y.begin(), run.y.end(), 0.0) / n)
                          : 0;
     square += std::pow(far * (run.column == Quantity::x ? of.way : of.fastest()), 2) * n;
@@ -182,7 +187,8 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
     return fit;
   std::vector<ObservedRun> few;
   for (const ObservedRun& run : runs) {
-    const std::size_t rows = run.t.size(), size = (rows + longest - 1) / longest;
+    const std::size_t rows = run.t.size();
+    const std::size_t size = (rows + longest - 1) / longest;
     few.push_back(means(run, rows, size));  // of equal size: the means have equal weights
   }
   return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
@@ -197,8 +203,8 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
     thin_runs.push_back(thin.back().run);
   }
   const bool position = runs.front().column == Quantity::x;
-  const double v = thin.front().fastest() / 2,
-               time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
+  const double v = thin.front().fastest() / 2;
+  const double time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
   std::vector<std::vector<double>> all = starts(thin, q, options);
   const System system = system_of(Model(std::move(thin_runs), q));

@@ -37,7 +37,8 @@ WhiteShare most_likely_share(const Model& model, const std::vector<double>& thet
       linear.evaluate(delta, [&](std::size_t r, std::span<double> f, std::span<double> J) {
         const Whitener whitener(noise[r], share);
         log_size += whitener.log_size();
-        whitener.apply(f), whitener.apply(J);
+        whitener.apply(f);
+        whitener.apply(J);
         take(r, f, J);
       });
     };

@@ -31,10 +31,11 @@ Matrix orthonormal(const System& system, const Minimum& at) {
 
 namespace {
 
-/// The covariance R^-1 M R^-T of the numbers of a fit, of the meat M of each run. The meat of the
-/// parameters that the runs share is the sum over the runs.
+/// The covariance R^-1 M R^-T of the numbers of a fit, from the meat M (uncertainty.h) of each run.
+/// For the parameters that the runs share, M is the sum over the runs.
 Matrix covariance_of(const Fitted& fit, std::vector<double> M) {
-  const std::size_t own = fit.parameters().own(), q = fit.parameters().columns();
+  const std::size_t own = fit.parameters().own();
+  const std::size_t q = fit.parameters().columns();
   for (std::size_t i = own; i < q; ++i)
     for (std::size_t j = own; j < q; ++j)
       for (std::size_t at = i * q + j + q * q; at < M.size(); at += q * q) M[i * q + j] += M[at];
@@ -79,14 +80,16 @@ SeenNoise seen_noise(const Fitted& fit, Matrix Q) {
   if (fit.noise_of_roll) return *fit.noise_of_roll;
   const auto& f = fit.minimum.f;
   SeenNoise seen{.freedom = fit.degrees_left()};
-  seen.e = seen.innovations = f, seen.sources = seen.runs = fit.model.rows();
+  seen.e = seen.innovations = f;
+  seen.sources = seen.runs = fit.model.rows();
   seen.B = std::move(Q);
   if (fit.noise->from_sources_alone()) {
     seen.innovations = fit.noise->innovations(f, seen.runs);
     Matrix few;
     for (const auto& column : seen.B) few.push_back(fit.noise->innovations(column, seen.runs));
     seen.taken = taken_by(few, seen.runs);
-    seen.e = fit.noise->to_sources(f), seen.sources = fit.noise->sources();
+    seen.e = fit.noise->to_sources(f);
+    seen.sources = fit.noise->sources();
     for (auto& column : seen.B) column = fit.noise->to_sources(std::move(column));
   } else {
     seen.taken = taken_by(seen.B, seen.runs);

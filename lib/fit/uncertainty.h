@@ -15,15 +15,15 @@ struct Uncertainty {
   Matrix covariance;  ///< of Fitted::numbers(); 0 for one that is fixed
 };
 
-/// Q = J R^-1 at the minimum. The meat M of the covariance R^-1 M R^-T is a quadratic form of the
-/// rows of Q.
+/// Q = J R^-1 at the minimum. Its columns are orthonormal.
 Matrix orthonormal(const System&, const Minimum&);
 
 /// The noise that the residuals of a fit with this Q show; of a log-log line behind known filters,
 /// that of the roll that made its rows.
 SeenNoise seen_noise(const Fitted&, Matrix Q);
 
-/// The covariance of a fit, R^-1 M R^-T with the meat M of the sandwich. For known filters it is
+/// The covariance of a fit, R^-1 M R^-T, where M is the covariance of Q^T e and e is the noise of
+/// the residuals. (It is called a sandwich estimator, and M its meat.) For known filters it is
 /// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for
 /// known filters the noise of the raw column). If it is not white (Ljung and Box), the covariance
 /// is that of Newey and West, already at 10 % if neighbouring residuals are positively correlated;

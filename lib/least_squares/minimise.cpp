@@ -61,7 +61,8 @@ bool determined(const Minimum& at) { return at.R.smallest_sine() > undetermined;
 /// damped after Nielsen (1999, IMM-REP-1999-05), until they make no further progress. The caller
 /// tests whether the result is a minimum.
 Minimum descend(const System& system, Minimum at) {
-  double mu = 1e-3, growth = 2;
+  double mu = 1e-3;
+  double growth = 2;
   std::vector<double> D = at.R.lengths();
   for (double& d : D)
     if (d == 0) d = 1;
@@ -112,7 +113,8 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
   // Convergence after Bates and Watts (1981, Technometrics 23, 179): the component of the residuals
   // in the tangent plane is small relative to the orthogonal component. An exact fit has no
   // orthogonal component; there the step itself must vanish.
-  const std::size_t n = system.residuals(), p = system.parameters();
+  const std::size_t n = system.residuals();
+  const std::size_t p = system.parameters();
   const double freedom = n > p ? static_cast<double>(n - p) : 0;
   const auto offset = [&] {
     const double reduction = best.R.reduction();
@@ -123,13 +125,15 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     return determined(best) && (size_of_step(best) < 1e-7 || (freedom > 0 && offset() < 1e-3));
   };
   for (int round = 0; !converged(); ++round) {
-    const double before = best.rss, size_before = size_of_step(best);
+    const double before = best.rss;
+    const double size_before = size_of_step(best);
     Minimum next = polish(system, descend(system, best), 0);
     // Parameters as many as residuals may move on to where they are not determined.
     if (freedom == 0 && !determined(next)) break;
     best = std::move(next);
     if (converged()) break;
-    const double gain = 1 - best.rss / before, size = size_of_step(best);
+    const double gain = 1 - best.rss / before;
+    const double size = size_of_step(best);
     // The minimum of a trajectory fit may lie on a kink, where the time of the stop coincides with
     // a row: no step reduces the sum of squares noticeably, but the gradient on either side is
     // not zero. The search ends there, unless the remaining step is more than a standard deviation

@@ -86,10 +86,11 @@ std::vector<double> drawn(const System& system, std::mt19937& random) {
   std::vector<double> factors(system.residuals());
   std::size_t of_run = 0;
   for (std::size_t r = 0; r < runs.size(); of_run += runs[r++]) {
-    const std::size_t n = runs[r],
-                      few = std::min(n, system.own + (r == longest ? system.shared : 0));
+    const std::size_t n = runs[r];
+    const std::size_t few = std::min(n, system.own + (r == longest ? system.shared : 0));
     for (std::size_t j = 0; j < few; ++j) {
-      const std::size_t first = j * n / few, end = (j + 1) * n / few;
+      const std::size_t first = j * n / few;
+      const std::size_t end = (j + 1) * n / few;
       factors[of_run + first + random() % (end - first)] = 1;
     }
   }
@@ -117,7 +118,8 @@ std::vector<double> trimmed_step(const System& system, const std::vector<double>
 
 /// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
 Minimum descend(const System& system, Minimum at) {
-  constexpr int rounds = 20, halvings = 5;
+  constexpr int rounds = 20;
+  constexpr int halvings = 5;
   for (int round = 0; round < rounds && std::isfinite(at.rss); ++round) {
     std::vector<double> step = trimmed_step(system, at.theta);
     const double enough = 0.99 * scale_of(system, at);
@@ -169,24 +171,28 @@ std::vector<double> sizes_of(const std::vector<double>& f, double scale) {
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
-  constexpr std::size_t few = 1000, few_parameters = 12;
+  constexpr std::size_t few = 1000;
+  constexpr std::size_t few_parameters = 12;
   const std::size_t p = system.parameters();
   const bool trimmed = system.residuals() <= few && p <= few_parameters;
   Minimum at = trimmed ? least_trimmed(system, starts) : evaluated(system, starts.front());
   double scale = scale_of(system, at);
-  std::vector<double> u = sizes_of(at.f, scale), factors(u.size());
+  std::vector<double> u = sizes_of(at.f, scale);
+  std::vector<double> factors(u.size());
   std::vector<bool> outliers;
   for (const double size : u) outliers.push_back(trimmed && size > 30);
   for (const auto influence : {huber, bisquare}) {
     double change = influence == huber ? 1 : 0.01;
     for (int round = 0; change > 1e-8; ++round) {
       if (round == 200) fail("the robust fit does not converge");
-      double squares = 0, slopes = 0;  // sums of the weights and of psi'
+      double squares = 0;
+      double slopes = 0;  // sums of the weights and of psi'
       for (std::size_t i = 0; i < u.size(); ++i) {
         const bool out = influence == huber && outliers[i];
         const Influence of = out ? Influence{0, 0} : influence(u[i]);
         factors[i] = std::sqrt(of.weight);
-        squares += of.weight, slopes += of.slope;
+        squares += of.weight;
+        slopes += of.slope;
       }
       const System weights = weighted(system, factors);
       // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
@@ -211,7 +217,8 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
     }
   }
   const double n = static_cast<double>(u.size());
-  double mean = 0, squares = 0;
+  double mean = 0;
+  double squares = 0;
   for (const double size : u) {
     const double slope = bisquare(size).slope;
     mean += slope / n;

@@ -18,8 +18,8 @@ void fold(double* R, std::size_t q, double* J, double* f, std::size_t m, std::si
     const double below = dot(x, x, m);
     if (below == 0) continue;
     double* const row = R + j * (q + 1);
-    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]),
-                 head = row[j] - length;
+    const double length = -std::copysign(std::sqrt(row[j] * row[j] + below), row[j]);
+    const double head = row[j] - length;
     row[j] = length;
     for (std::size_t k = j + 1; k <= q; ++k) {
       double* const y = k < q ? J + k * stride : f;
@@ -40,7 +40,9 @@ void Triangles::add(std::size_t run, std::span<double> f, std::span<double> J) {
 }
 
 void Triangles::join() {
-  std::vector<double> common(shared_ * (shared_ + 1)), J(shared_ * shared_), f(shared_);
+  std::vector<double> common(shared_ * (shared_ + 1));
+  std::vector<double> J(shared_ * shared_);
+  std::vector<double> f(shared_);
   for (std::size_t r = 0; r < runs_; ++r) {
     for (std::size_t i = 0; i < shared_; ++i) {
       const double* const row = of(r) + (own_ + i) * (q() + 1) + own_;
@@ -60,7 +62,8 @@ Triangles Triangles::damped(const std::vector<double>& D, double mu) const {
     // The first run alone keeps the shared rows, which the others have too.
     if (r > 0) std::fill(all.of(r) + own_ * (q() + 1), all.of(r) + triangle(), 0.0);
     const std::size_t count = r > 0 ? own_ : q();
-    std::vector<double> J(count * q()), f(count);
+    std::vector<double> J(count * q());
+    std::vector<double> f(count);
     for (std::size_t i = 0; i < count; ++i) J[i * count + i] = std::sqrt(mu) * D[place(r, i)];
     all.add(r, f, J);
   }

@@ -16,7 +16,10 @@ BandMatrix BandMatrix::identity(std::size_t n) {
 
 void BandMatrix::append(std::size_t first, std::span<const double> values) {
   while (!values.empty() && values.back() == 0) values = values.first(values.size() - 1);
-  while (!values.empty() && values.front() == 0) values = values.subspan(1), ++first;
+  while (!values.empty() && values.front() == 0) {
+    values = values.subspan(1);
+    ++first;
+  }
   const bool same = rows() > 0 && std::ranges::equal(row(rows() - 1), values);
   rows_.push_back({first, same ? rows_.back().start : values_.size(), values.size()});
   if (!same) values_.insert(values_.end(), values.begin(), values.end());
@@ -50,10 +53,12 @@ BandMatrix operator*(const BandMatrix& L, const BandMatrix& M) {
   std::vector<double> sum(M.columns());
   for (std::size_t i = 0; i < L.rows(); ++i) {
     bool repeats = L.repeats(i);
-    std::size_t first = M.columns(), end = 0;
+    std::size_t first = M.columns();
+    std::size_t end = 0;
     for (std::size_t k = L.first(i); k < L.end(i); ++k) {
       repeats &= M.repeats(k);
-      first = std::min(first, M.first(k)), end = std::max(end, M.end(k));
+      first = std::min(first, M.first(k));
+      end = std::max(end, M.end(k));
     }
     if (repeats) {
       product.append(product.first(i - 1) + 1, product.row(i - 1));
@@ -70,7 +75,8 @@ BandMatrix operator*(const BandMatrix& L, const BandMatrix& M) {
 }
 
 double dot(const BandMatrix& L, std::size_t i, const BandMatrix& M, std::size_t j) {
-  const std::size_t from = std::max(L.first(i), M.first(j)), to = std::min(L.end(i), M.end(j));
+  const std::size_t from = std::max(L.first(i), M.first(j));
+  const std::size_t to = std::min(L.end(i), M.end(j));
   return from < to ? dot(&L.row(i)[from - L.first(i)], &M.row(j)[from - M.first(j)], to - from) : 0;
 }
 

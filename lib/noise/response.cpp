@@ -24,9 +24,9 @@ bool same_everywhere(const LinearFilter& filter, std::span<const double> t) {
 }  // namespace
 
 BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
-  const std::size_t side = 2 * filter.reach + 1, n = same_everywhere(filter, times)
-                                                         ? std::min(times.size(), 3 * side)
-                                                         : times.size();
+  const std::size_t side = 2 * filter.reach + 1;
+  const std::size_t n =
+      same_everywhere(filter, times) ? std::min(times.size(), 3 * side) : times.size();
   std::vector<double> t(times.begin(), times.end());
   for (double& time : t) time -= times.front();
   if (n < times.size()) {
@@ -40,7 +40,9 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
   // A row inside the run reads 2 * reach + 1 columns, and one of the `reach` rows at either end at
   // most 3 * reach: it responds to only one of several impulses at this distance.
   const std::size_t spacing = std::min(std::max(side, 3 * filter.reach), n);
-  std::vector<double> all(n * spacing), comb(n), row;
+  std::vector<double> all(n * spacing);
+  std::vector<double> comb(n);
+  std::vector<double> row;
   for (std::size_t k = 0; k < spacing; ++k) {
     for (std::size_t j = k; j < n; j += spacing) comb[j] = 1;
     const auto response = filter.apply(t, comb);
@@ -51,8 +53,8 @@ BandMatrix probe(const LinearFilter& filter, std::span<const double> times) {
   }
   BandMatrix L(times.size());  // what a row reads lies within `spacing` columns around it
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const std::size_t k = std::max(std::min(i, side), i + n - std::min(i + n, times.size())),
-                      first = std::min(k - std::min(k, spacing / 2), n - spacing);
+    const std::size_t k = std::max(std::min(i, side), i + n - std::min(i + n, times.size()));
+    const std::size_t first = std::min(k - std::min(k, spacing / 2), n - spacing);
     row.clear();
     for (std::size_t j = first; j < first + spacing; ++j)
       row.push_back(all[k * spacing + j % spacing]);

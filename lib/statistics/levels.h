@@ -22,16 +22,19 @@ inline constexpr double runs_disagree = 0.01;
 inline constexpr double beginning = 0.001, beginning_white = 0.005;
 /// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.
 inline constexpr double one_turn = 0.01;
-/// Residuals count in the search for one turn up to so many standard deviations.
+/// In the search for one turn, a residual of more standard deviations than this counts as one of
+/// this many.
 inline constexpr double cut_off = 3;
 /// ln of the likelihood ratio for rounding: 1 %.
 inline constexpr double likely = 3;
 /// The same for the best of the eight filters of sensors. At 3 the 95 % intervals of a and b held
 /// in .915 and .920 of 400 runs of white speeds, at 5 and without a search in .920 and .927.
 inline constexpr double likely_filter = 5;
-/// A reading is off the motion by so many standard deviations, and by chance so rarely in a run.
+/// A reading is off if it lies at least 10 standard deviations from the motion, and if noise alone
+/// puts a reading so far in at most one run of 10,000.
 inline constexpr double off = 10, off_chance = 1e-4;
-/// So close to the roll readings on a grid cannot be rounded to it.
+/// Readings on a grid are not rounded to it if rounding alone would leave residuals as small with
+/// at most this probability.
 inline constexpr double not_rounded = 0.001;
 /// Readings on a grid repeat where they move by less than it, and rms is near 0.29 of it.
 inline constexpr double grid_of_rms = 0.5, repeats_of_grid = 1. / 3;

@@ -19,11 +19,16 @@ inline Estimate logarithm_of_noise(double s) {
   // the pole of the logarithm.
   constexpr int steps = 32;
   constexpr double range = 5.5;
-  const double least = std::max(-range, -1 / s), length = std::sqrt(std::sqrt(range - least));
-  double weight = 0, sum = 0, squares = 0;
+  const double least = std::max(-range, -1 / s);
+  const double length = std::sqrt(std::sqrt(range - least));
+  double weight = 0;
+  double sum = 0;
+  double squares = 0;
   for (int i = 0; i < steps; ++i) {
-    const double u = (i + 0.5) / steps * length, z = u * u * u * u + least,
-                 w = u * u * u * std::exp(-z * z / 2), log = std::log1p(s * z);
+    const double u = (i + 0.5) / steps * length;
+    const double z = u * u * u * u + least;
+    const double w = u * u * u * std::exp(-z * z / 2);
+    const double log = std::log1p(s * z);
     weight += w;
     sum += w * log;
     squares += w * log * log;

@@ -42,8 +42,8 @@ RandomEffectsLine random_effects_line(const std::vector<Estimate>& x, const std:
   double tau_square = 0;
   RandomEffectsLine line = line_through(x, g, 0);
   for (int i = 0; i < 100 && line.chi2 > 0 && std::isfinite(line.weight); ++i) {
-    const double step = (line.chi2 / freedom - 1) * line.chi2 / line.fall,
-                 next = std::max(0.0, tau_square + step);
+    const double step = (line.chi2 / freedom - 1) * line.chi2 / line.fall;
+    const double next = std::max(0.0, tau_square + step);
     const bool done = std::abs(next - tau_square) <= 1e-12 * next;
     tau_square = next;
     line = line_through(x, g, tau_square);
@@ -65,26 +65,32 @@ RandomEffectsMean random_effects_mean(const std::vector<Estimate>& x, double fre
   }
   for (std::size_t i = 0; i < n; ++i) mean.shares[i] = line.weight_of(x[i]) / line.weight;
   // Of the other runs: rest = 1 - h also where that rounds to 0, and the sum of h x.
-  std::vector<double> rest(n), sum(n);
-  double h_seen = 0, hx_seen = 0;
+  std::vector<double> rest(n);
+  std::vector<double> sum(n);
+  double h_seen = 0;
+  double hx_seen = 0;
   const auto add_others = [&](std::size_t i) {
-    rest[i] += h_seen, sum[i] += hx_seen;
-    h_seen += mean.shares[i], hx_seen += mean.shares[i] * x[i].value;
+    rest[i] += h_seen;
+    sum[i] += hx_seen;
+    h_seen += mean.shares[i];
+    hx_seen += mean.shares[i] * x[i].value;
   };
   for (std::size_t i = 0; i < n; ++i) add_others(i);
   h_seen = hx_seen = 0;
   for (std::size_t i = n; i-- > 0;) add_others(i);
-  double inverse = 0, k_before = 0;  // of the degrees of freedom
+  double inverse = 0;
+  double k_before = 0;  // of the degrees of freedom
   for (std::size_t i = 0; i < n; ++i) {
-    const double h = mean.shares[i], k = h * h / rest[i];
+    const double h = mean.shares[i];
+    const double k = h * h / rest[i];
     mean.parts[i] =
         h * std::sqrt(rest[i]) * (x[i].value - sum[i] / rest[i]);  // r/(1 - h) = x - sum/rest
     inverse += h * h + 2 * k * k_before;
     k_before += k;
   }
   // The slope, where it was fitted, has taken one of the N - 1.
-  const double left = freedom / static_cast<double>(n - 1),
-               factor = student(left / inverse) / std::sqrt(left);
+  const double left = freedom / static_cast<double>(n - 1);
+  const double factor = student(left / inverse) / std::sqrt(left);
   for (double& part : mean.parts) part *= factor;
   return mean;
 }

@@ -42,12 +42,14 @@ LagSums taken_by_few(std::size_t p) {
 double ljung_box(std::span<const double> r, const LagSums& taken, std::span<const std::size_t> runs,
                  bool uneven) {
   const std::size_t lags = std::clamp<std::size_t>(r.size() / 10, 1, taken.size() - 1);
-  LagSums sums{}, variances{};
+  LagSums sums{};
+  LagSums variances{};
   for (const auto run : by_run(r, runs)) {
     std::vector<double> squares;
     for (const double x : run.first(uneven ? run.size() : 0)) squares.push_back(x * x);
-    const double n = static_cast<double>(run.size()), sum = product(run, 0),
-                 even = sum * sum / (n * (n + 2));
+    const double n = static_cast<double>(run.size());
+    const double sum = product(run, 0);
+    const double even = sum * sum / (n * (n + 2));
     for (std::size_t k = 0; k <= lags && k < run.size(); ++k) {
       sums[k] += product(run, k);
       variances[k] += uneven ? product(squares, k) : (n - static_cast<double>(k)) * even;
@@ -55,7 +57,8 @@ double ljung_box(std::span<const double> r, const LagSums& taken, std::span<cons
   }
   const double n = static_cast<double>(r.size());
   if (!(sums[0] > 0 && n > taken[0])) return 1;
-  double Q = 0, least = 1;
+  double Q = 0;
+  double least = 1;
   for (std::size_t k = 1; k <= lags; ++k) {
     const double sum = sums[k] + taken[k] * sums[0] / (n - taken[0]);
     if (variances[k] > 0) Q += sum * sum / variances[k];
@@ -68,20 +71,30 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
                      std::span<const double> left) {
   // n R^2 of the regression of the squared residuals on the first two Legendre polynomials of the
   // position u in the run and on the mean of each run. They are orthogonal up to 1/n^2.
-  const double n = static_cast<double>(residuals.size()),
-               freedom = left.empty() ? n : std::reduce(left.begin(), left.end()),
-               mean = lagged(residuals, runs, 0) / freedom;
-  double P1 = 0, P2 = 0, along1 = 0, along2 = 0, between = 0, all = 0;
+  const double n = static_cast<double>(residuals.size());
+  const double freedom = left.empty() ? n : std::reduce(left.begin(), left.end());
+  const double mean = lagged(residuals, runs, 0) / freedom;
+  double P1 = 0;
+  double P2 = 0;
+  double along1 = 0;
+  double along2 = 0;
+  double between = 0;
+  double all = 0;
   auto share = left.begin();
   for (const auto run : by_run(residuals, runs)) {
-    double sum = 0, of_run = 0;
+    double sum = 0;
+    double of_run = 0;
     for (std::size_t i = 0; i < run.size(); ++i) {
-      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1,
-                   p2 = (3 * u * u - 1) / 2, h = left.empty() ? 1 : *share++,
-                   square = h > 0 ? run[i] * run[i] / h - mean : 0;
-      P1 += u * u, along1 += u * square;
-      P2 += p2 * p2, along2 += p2 * square;
-      sum += h * square, of_run += h;
+      const double u = (2 * static_cast<double>(i) + 1) / static_cast<double>(run.size()) - 1;
+      const double p2 = (3 * u * u - 1) / 2;
+      const double h = left.empty() ? 1 : *share++;
+      const double square = h > 0 ? run[i] * run[i] / h - mean : 0;
+      P1 += u * u;
+      along1 += u * square;
+      P2 += p2 * p2;
+      along2 += p2 * square;
+      sum += h * square;
+      of_run += h;
       all += square * square;
     }
     if (of_run > 0) between += sum * sum / of_run;
@@ -118,10 +131,12 @@ std::vector<double> cumulative(std::span<const double> x) {
 /// autocorrelation of a box, so that the sum is one of products of moving sums, at a cost that does
 /// not depend on the width.
 double bartlett(std::span<const double> X, std::span<const double> Y, std::size_t width) {
-  const std::size_t m = X.size() - 1, box = std::min({width, m / 2, m - 1}) + 1;
+  const std::size_t m = X.size() - 1;
+  const std::size_t box = std::min({width, m / 2, m - 1}) + 1;
   double sum = 0;
   for (std::size_t end = 1; end < m + box; ++end) {
-    const std::size_t from = end > box ? end - box : 0, to = std::min(end, m);
+    const std::size_t from = end > box ? end - box : 0;
+    const std::size_t to = std::min(end, m);
     sum += (X[to] - X[from]) * (Y[to] - Y[from]);
   }
   return sum / static_cast<double>(box);
@@ -131,7 +146,8 @@ double bartlett(std::span<const double> X, std::span<const double> Y, std::size_
 
 std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
                                std::span<const std::size_t> runs) {
-  const double n = static_cast<double>(residuals.size()), fitted = static_cast<double>(p);
+  const double n = static_cast<double>(residuals.size());
+  const double fitted = static_cast<double>(p);
   // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
   // (Kendall 1954, Biometrika 41, 403, for p = 1).
   const double AR = std::clamp(

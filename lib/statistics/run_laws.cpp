@@ -39,10 +39,11 @@ double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t para
     Weighted next;
     for (const OwnLaw& one : laws) {
       const Symmetric weight = one.covariance.inverse();
-      const double nu = one.freedom, d = weight.square(one.law - common),
-                   c = static_cast<double>(parameters) /
-                       (gsl_sf_psi((nu + static_cast<double>(parameters)) / 2) -
-                        gsl_sf_psi(nu / 2));
+      const double nu = one.freedom;
+      const double d = weight.square(one.law - common);
+      const double c =
+          static_cast<double>(parameters) /
+          (gsl_sf_psi((nu + static_cast<double>(parameters)) / 2) - gsl_sf_psi(nu / 2));
       sum += c * std::log1p(d / nu);
       next.add(c / (nu + d) * weight, one.law);
     }
@@ -81,10 +82,12 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::
 
 double common_log_v(const std::vector<OwnLaw>& laws,
                     const std::function<double(const OwnLaw&)>& log_v_of) {
-  double log_v = 0, weights = 0;
+  double log_v = 0;
+  double weights = 0;
   for (const OwnLaw& one : laws) {
-    const double own = log_v_of(one), sigma = one.log_D(own).sigma,
-                 weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // without error if a is fixed
+    const double own = log_v_of(one);
+    const double sigma = one.log_D(own).sigma;
+    const double weight = sigma > 0 ? 1 / (sigma * sigma) : 1;  // without error if a is fixed
     weights += weight;
     log_v += weight / weights * (own - log_v);
   }
@@ -124,18 +127,23 @@ namespace {
 
 /// The variance of the noise if it is of one size in all runs, else 0: Bartlett's test.
 double common_variance(const std::vector<OwnLaw>& laws) {
-  double freedom = 0, squares = 0, logarithms = 0, inverse = 0;
+  double freedom = 0;
+  double squares = 0;
+  double logarithms = 0;
+  double inverse = 0;
   for (const OwnLaw& one : laws) {
     if (!(one.rms > 0)) return 0;
-    const double nu = one.freedom, variance = one.rms * one.rms;
+    const double nu = one.freedom;
+    const double variance = one.rms * one.rms;
     freedom += nu;
     squares += nu * variance;
     logarithms += nu * std::log(variance);
     inverse += 1 / nu;
   }
-  const double variance = squares / freedom, others = static_cast<double>(laws.size()) - 1,
-               correction = 1 + (inverse - 1 / freedom) / (3 * others),
-               chi2 = (freedom * std::log(variance) - logarithms) / correction;
+  const double variance = squares / freedom;
+  const double others = static_cast<double>(laws.size()) - 1;
+  const double correction = 1 + (inverse - 1 / freedom) / (3 * others);
+  const double chi2 = (freedom * std::log(variance) - logarithms) / correction;
   return gsl_cdf_chisq_Q(std::max(0.0, chi2), others) > levels::uneven ? variance : 0;
 }
 

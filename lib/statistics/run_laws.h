@@ -27,7 +27,8 @@ struct Symmetric {
   double square(Pair x) const { return x.a * (aa * x.a + 2 * ab * x.b) + x.b * bb * x.b; }
   /// A parameter that is fixed has a row and a column of zeros; they stay zeros.
   Symmetric inverse() const {
-    if (aa == 0 || bb == 0) return {aa == 0 ? 0 : 1 / aa, 0, bb == 0 ? 0 : 1 / bb};
+    const auto of_one = [](double variance) { return variance == 0 ? 0 : 1 / variance; };
+    if (aa == 0 || bb == 0) return {of_one(aa), 0, of_one(bb)};
     const double det = aa * bb - ab * ab;
     return {bb / det, -ab / det, aa / det};
   }
