@@ -145,63 +145,98 @@ std::optional<Fitted> known_roll(const std::vector<Run>& runs, const FitOptions&
   }
 }
 
+/// ln D - b ln v of one row of a line: its derivatives by the noise of the raw readings from number
+/// `first` on, and its bias.
+struct LogarithmOfRow {
+  std::size_t first;
+  std::vector<double> by_noise;
+  double bias;
+};
+
+/// ln D - b ln v of the rows of one run under the roll that made them.
+class LogarithmsOfRun {
+ public:
+  LogarithmsOfRun(const Fitted& roll, std::size_t r, const Run& run, const Response& response,
+                  const Rows& rows)
+      : law_(*roll.law().power()), variance_(roll.noise_of_roll->variance),
+        way_(roll.model.runs()[r].way), by_(*run.shift_of),
+        D_(response.of[Quantity::D]->of_rows(rows)), v_(response.of[Quantity::v]->of_rows(rows)) {
+    std::vector<double> raw = roll.model.raw_column(roll.minimum.theta, r);
+    for (double& value : raw) value *= way_;  // along the motion
+    accelerations_ = D_.times(raw);
+    speeds_ = v_.times(raw);
+  }
+  std::size_t rows() const { return speeds_.size(); }
+  std::size_t readings() const { return D_.columns(); }
+
+  LogarithmOfRow row(std::size_t i) const {
+    const double v = speeds_[i];
+    const double D = shift(accelerations_[i]);
+    LogarithmOfRow row{std::min(D_.first(i), v_.first(i)), {}, 0};
+    row.by_noise.resize(std::max(D_.end(i), v_.end(i)) - row.first);
+    const auto add = [&](const BandMatrix& H, double factor) {
+      for (std::size_t k = H.first(i); k < H.end(i); ++k)
+        row.by_noise[k - row.first] += factor * H.row(i)[k - H.first(i)];
+    };
+    add(D_, minus_log_D_by_acceleration(i, D));
+    if (v > 0) add(v_, law_.b / v);
+    const double s = std::sqrt(variance_ * dot(row.by_noise, row.by_noise));
+    const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm_of_noise(s) : Estimate{};
+    const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
+    for (double& by : row.by_noise) by *= factor;
+    if (D > 0) row.bias = log_noise.value;
+    if (D > 0 && v > 0) row.bias += std::log(D / law_(v));
+    return row;
+  }
+
+ private:
+  double shift(double a) const {
+    return way_ * shift_from_acceleration(by_.body, by_.geometry, way_ * a);
+  }
+  /// By a difference quotient. If D of the roll is not positive, its relative noise is infinite;
+  /// 1e100 stands for that.
+  double minus_log_D_by_acceleration(std::size_t i, double D) const {
+    constexpr double step = 1e-4;
+    if (!(D > 0)) return 1e100;
+    const double a = accelerations_[i];
+    return (shift((1 - step) * a) / D - 1) / (step * a);
+  }
+
+  PowerLaw law_;
+  double variance_;
+  double way_;
+  ShiftOf by_;
+  BandMatrix D_;
+  BandMatrix v_;
+  std::vector<double> accelerations_;
+  std::vector<double> speeds_;
+};
+
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
 /// known filters. The bias of a point has two causes: smoothing bends the curve D(v), and the
 /// logarithm of a noisy number is too low on average. Its noise is also smaller than the relative
 /// noise of D.
 void carry_noise(Fitted& line, const std::vector<Run>& runs, const std::vector<Rows>& rows,
                  const std::vector<Response>& responses, Fitted roll) {
-  SeenNoise& noise = *roll.noise_of_roll;
-  const PowerLaw law = *roll.law().power();
   const Matrix Q = orthonormal(line.system(), line.minimum);
-  Matrix& B = noise.B;
-  B.assign(Q.size(), {});
+  Matrix B(Q.size());
   std::vector<double> along(Q.size());  // Q^T bias
   std::size_t point = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const double way = roll.model.runs()[r].way;
-    std::vector<double> raw = roll.model.raw_column(roll.minimum.theta, r);
-    for (double& value : raw) value *= way;  // along the motion
-    const auto shift = [&, by = *runs[r].shift_of](double a) {
-      return way * shift_from_acceleration(by.body, by.geometry, way * a);
-    };
-    const BandMatrix D = responses[r].of[Quantity::D]->of_rows(rows[r]);
-    const BandMatrix v = responses[r].of[Quantity::v]->of_rows(rows[r]);
-    const std::vector<double> accelerations = D.times(raw);
-    const std::vector<double> speeds = v.times(raw);
+    const LogarithmsOfRun logarithms(roll, r, runs[r], responses[r], rows[r]);
     const std::size_t begin = B.front().size();
-    for (std::vector<double>& column : B) column.resize(begin + raw.size());
-    for (std::size_t i = 0; i < speeds.size(); ++i, ++point) {
-      // Minus the derivative of ln D - b ln v by the raw column; that of ln D is a difference
-      // quotient. Where D of the roll is not positive, its relative noise is infinite; 1e100 stands
-      // for that.
-      constexpr double step = 1e-4;
-      const double a_i = accelerations[i];
-      const double v_i = speeds[i];
-      const double D_i = shift(a_i);
-      const double by_D = D_i > 0 ? (shift((1 - step) * a_i) / D_i - 1) / (step * a_i) : 1e100;
-      const double by_v = v_i > 0 ? law.b / v_i : 0;
-      const std::size_t first = std::min(D.first(i), v.first(i));
-      std::vector<double> e(std::max(D.end(i), v.end(i)) - first);  // by each raw reading
-      const auto add = [&](const BandMatrix& H, double factor) {
-        for (std::size_t k = H.first(i); k < H.end(i); ++k)
-          e[k - first] += factor * H.row(i)[k - H.first(i)];
-      };
-      add(D, by_D);
-      add(v, by_v);
-      const double s = std::sqrt(noise.variance * dot(e, e));
-      const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm_of_noise(s) : Estimate{};
-      const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
-      const double bias =
-          (D_i > 0 && v_i > 0 ? std::log(D_i / law(v_i)) : 0) + (D_i > 0 ? log_noise.value : 0);
+    for (std::vector<double>& column : B) column.resize(begin + logarithms.readings());
+    for (std::size_t i = 0; i < logarithms.rows(); ++i, ++point) {
+      const LogarithmOfRow row = logarithms.row(i);
       for (std::size_t j = 0; j < Q.size(); ++j) {
-        along[j] += Q[j][point] * bias;
-        for (std::size_t k = 0; k < e.size(); ++k)
-          B[j][begin + first + k] += Q[j][point] * factor * e[k];
+        along[j] += Q[j][point] * row.bias;
+        for (std::size_t k = 0; k < row.by_noise.size(); ++k)
+          B[j][begin + row.first + k] += Q[j][point] * row.by_noise[k];
       }
     }
   }
-  line.noise_of_roll = std::move(noise);
+  line.noise_of_roll = std::move(roll.noise_of_roll);
+  line.noise_of_roll->B = std::move(B);
   // The bias of theta is R^-1 Q^T bias.
   for (const FittedNumber& number : line.coefficients) {
     std::vector<double> gradient = number.gradient;

@@ -171,16 +171,14 @@ std::vector<double> sizes_of(const std::vector<double>& f, double scale) {
 }  // namespace
 
 Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
-  constexpr std::size_t few = 1000;
-  constexpr std::size_t few_parameters = 12;
   const std::size_t p = system.parameters();
-  const bool trimmed = system.residuals() <= few && p <= few_parameters;
+  const bool trimmed = system.residuals() <= 1000 && p <= 12;
   Minimum at = trimmed ? least_trimmed(system, starts) : evaluated(system, starts.front());
   double scale = scale_of(system, at);
   std::vector<double> u = sizes_of(at.f, scale);
   std::vector<double> factors(u.size());
-  std::vector<bool> outliers;
-  for (const double size : u) outliers.push_back(trimmed && size > 30);
+  std::vector<bool> outliers(u.size());
+  for (std::size_t i = 0; i < u.size(); ++i) outliers[i] = trimmed && u[i] > 30;
   for (const auto influence : {huber, bisquare}) {
     double change = influence == huber ? 1 : 0.01;
     for (int round = 0; change > 1e-8; ++round) {
