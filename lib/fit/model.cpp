@@ -68,6 +68,12 @@ Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) c
   return other;
 }
 
+Parameters Parameters::with_exponent(double b) const {
+  Parameters other = *this;
+  other.fixed_[1] = b;
+  return other;
+}
+
 std::size_t Parameters::coefficients() const {
   std::size_t free = 0;
   for (std::size_t j = 0; j < form_->coefficients.size(); ++j) free += !fixed_[j];
@@ -123,6 +129,17 @@ std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v
   if (!fixed_[1]) all.push_back(law.b);
   if (slope_) all.push_back(slope / slope_unit);
   return all;
+}
+
+std::vector<double> Parameters::theta_of(const Parameters& other,
+                                         const std::vector<double>& theta) const {
+  std::vector<double> v0s;
+  std::vector<double> x0s;
+  for (std::size_t r = 0; r < runs_; ++r) {
+    v0s.push_back(other.v0(theta, r));
+    x0s.push_back(other.x0(theta, r));
+  }
+  return this->theta(*other.law(theta).power(), v0s, x0s, other.slope(theta, 0));
 }
 
 void Parameters::chain(double* to, std::size_t stride, double c0,

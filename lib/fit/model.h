@@ -54,6 +54,8 @@ class Parameters {
   Parameters(const FitOptions&, double v_unit);
   /// The same parameters with another law, all of whose coefficients are free.
   Parameters with(const LawForm&, double D_unit, double v_unit) const;
+  /// The same parameters with the exponent of a v^b fixed.
+  Parameters with_exponent(double b) const;
 
   double speed_unit() const { return v_unit_; }  ///< [m/s], see Law
   const LawForm& form() const { return *form_; }
@@ -79,6 +81,8 @@ class Parameters {
   /// The theta of a v^b with these v0 and x0 (one for each run), and this slope.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
                             const std::vector<double>& x0, double slope = 0) const;
+  /// The theta of the same roll as that of other parameters, in which others are fixed.
+  std::vector<double> theta_of(const Parameters&, const std::vector<double>& theta) const;
 
   /// Partial derivatives of a number: by the coefficients of the law, by the v0 and x0 of its run,
   /// and by the slope.

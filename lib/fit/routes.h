@@ -43,9 +43,9 @@ Fitted fit_rolls(Route, const std::vector<Run>&, std::vector<Rows>, std::vector<
                  const FitOptions&, AddedNoise = {});
 
 /// Minimises by the loss that the options name: squares from the first start. The robust loss
-/// ignores what the cusps make.
-Minimum search(const Model&, const System&, const std::vector<std::vector<double>>& starts,
-               const FitOptions&);
+/// ignores what the cusps and the wall make.
+Minimum search(const Model&, const std::shared_ptr<const Noise>&,
+               const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// The fit of these runs with the weights of this noise.
 Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,

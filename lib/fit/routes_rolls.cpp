@@ -63,7 +63,7 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
   fit.noise = noise_of(fit.model.runs(), {adopted ? found.share : 0});
-  if (adopted) fit.minimum = search(fit.model, fit.system(), {fit.minimum.theta}, options);
+  if (adopted) fit.minimum = search(fit.model, fit.noise, {fit.minimum.theta}, options);
   read_off(fit);
 }
 

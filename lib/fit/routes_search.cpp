@@ -43,18 +43,56 @@ Minimum beyond_cusps(const Model& rolls, const System& system, Minimum best) {
   return best;
 }
 
+/// True if the gradient of the sum of squares is not 0, by a hundredth of a standard deviation.
+bool ends_at_an_edge(const Minimum& at) {
+  const std::size_t n = at.f.size();
+  const std::size_t p = at.theta.size();
+  return n > p && at.R.reduction() * static_cast<double>(n - p) > 1e-4 * at.rss;
+}
+
+/// A body that turns on a slope would be held there under a v^b with b < 0, so that the sum of
+/// squares has a wall at b = 0. True if b is free and a run goes uphill at theta.
+bool has_wall(const Model& rolls, const std::vector<double>& theta) {
+  const Parameters& q = rolls.parameters();
+  if (!rolls.is_roll() || &q.form() != &laws().front() || q.fixed(1)) return false;
+  return std::ranges::any_of(rolls.runs(), [&](const ObservedRun& run) {
+    return run.way * q.slope(theta, run.body.slope) > 0;
+  });
+}
+
+/// The minimum from this start. A search may end at the wall before it is at the lowest place
+/// there, or behind it. If it does, this function goes along the wall, and on from there.
+Minimum minimise_along_wall(const Model& rolls, const std::shared_ptr<const Noise>& noise,
+                            const std::vector<double>& start) {
+  const System system = system_of(rolls, noise);
+  if (!has_wall(rolls, start)) return minimise(system, start);
+  Minimum best{start};
+  improve(best, system, start);
+  const Parameters& q = rolls.parameters();
+  const bool before_wall = std::isfinite(best.rss) && q.law(best.theta).power()->b > 0;
+  if (before_wall && !ends_at_an_edge(best)) return best;
+  const Parameters held = q.with_exponent(0);
+  Minimum at_wall{held.theta_of(q, best.theta)};
+  improve(at_wall, system_of(rolls.with(held), noise), at_wall.theta);
+  if (!std::isfinite(at_wall.rss)) return minimise(system, start);
+  const std::vector<double> there = q.theta_of(held, at_wall.theta);
+  improve(best, system, there);
+  return best.rss < at_wall.rss ? best : evaluated(system, there);
+}
+
 }  // namespace
 
-Minimum search(const Model& model, const System& system,
+Minimum search(const Model& model, const std::shared_ptr<const Noise>& noise,
                const std::vector<std::vector<double>>& starts, const FitOptions& options) {
-  return options.robust ? minimise_robust(system, starts)
-                        : beyond_cusps(model, system, minimise(system, starts.front()));
+  const System system = system_of(model, noise);
+  if (options.robust) return minimise_robust(system, starts);
+  return beyond_cusps(model, system, minimise_along_wall(model, noise, starts.front()));
 }
 
 Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
                 std::shared_ptr<const Noise> noise, const FitOptions& options) {
   Model model(std::move(runs), start.parameters);
-  Minimum minimum = search(model, system_of(model, noise), start.starts, options);
+  Minimum minimum = search(model, noise, start.starts, options);
   Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
   read_off(fit);
   return fit;

@@ -89,7 +89,8 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const double most = std::max(0.0, std::ranges::max(way));
   if (most == 0 && std::ranges::min(way) < 0) refuse_way_back(run);  // beyond its beginning
   // The way back of a body that turns is used as well, and may be slow.
-  const bool turns = way.back() < 0.8 * most;
+  const bool level = run.body.slope == 0 && !options.fit_slope;
+  const bool turns = way.back() < (level ? 0.8 : 0.98) * most;
   std::size_t used = n;
   if (!options.fit_slope && !turns) {
     const auto far = std::ranges::find_if(way, [&](double x) { return x >= 0.95 * most; });
@@ -136,23 +137,43 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
 
 /// Starting points for a grid of exponents: the shift at half of the highest speed is that of an
 /// even deceleration.
-std::vector<std::vector<double>> starts(const std::vector<Thinned>& thin, const Parameters& q,
-                                        const FitOptions& options) {
-  std::vector<double> v0;
-  std::vector<double> x0;
-  for (const auto& [run, most, turns, speeds] : thin) {
-    v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
-    x0.push_back(run.y[0] - run.way * v0.back() * run.t[0]);
+class Starts {
+ public:
+  Starts(const std::vector<Thinned>& thin, const FitOptions& options)
+      : options_(options), even_(even_roll(thin, options.fit_slope)),
+        middle_(thin.front().fastest() / 2) {
+    for (const auto& [run, most, turns, speeds] : thin) {
+      v0_.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
+      x0_.push_back(run.y[0] - run.way * v0_.back() * run.t[0]);
+    }
   }
-  const EvenRoll even = even_roll(thin, options.fit_slope);
-  std::vector<double> exponents{0.25, 0, 1, -0.5};
-  if (options.b) exponents = {*options.b};
-  std::vector<std::vector<double>> all;
-  for (const double b : exponents) {
-    const double a = even.D * std::pow(thin.front().fastest() / 2, -b);
-    all.push_back(q.theta({options.a.value_or(a), b}, v0, x0, even.slope));
+  std::vector<double> exponents() const {
+    if (options_.b) return {*options_.b};
+    return {0.25, 0, 1, -0.5};
   }
-  return all;
+  std::vector<double> theta(const Parameters& q, double b) const {
+    const double a = even_.D * std::pow(middle_, -b);
+    return q.theta({options_.a.value_or(a), b}, v0_, x0_, even_.slope);
+  }
+
+ private:
+  const FitOptions& options_;
+  EvenRoll even_;
+  double middle_;  // half of the highest speed
+  std::vector<double> v0_;
+  std::vector<double> x0_;
+};
+
+/// The minimum with this exponent held, as a theta in which it is free. A body that turns on a
+/// slope would be held there by a law with b < 0, so that the sum of squares has a wall at b = 0. A
+/// search that comes to the wall before the other parameters are right does not leave it; with b
+/// held the other parameters come first.
+std::vector<double> with_b_held(const std::vector<ObservedRun>& runs, const Parameters& q,
+                                const Starts& starts, double b) {
+  const Parameters held = q.with_exponent(b);
+  Minimum best{starts.theta(held, b)};
+  improve(best, system_of(Model(runs, held)), best.theta);
+  return q.theta_of(held, best.theta);
 }
 
 /// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well.
@@ -206,10 +227,20 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   const double v = thin.front().fastest() / 2;
   const double time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
-  std::vector<std::vector<double>> all = starts(thin, q, options);
-  const System system = system_of(Model(std::move(thin_runs), q));
+  const Starts starts(thin, options);
+  const bool turns = std::ranges::any_of(thin, &Thinned::turns);
+  const System system = system_of(Model(thin_runs, q));
+  std::vector<std::vector<double>> all;
+  for (const double b : starts.exponents()) all.push_back(starts.theta(q, b));
   Minimum best{all[0]};
   for (const std::vector<double>& start : all) improve(best, system, start);
+  if (turns && !options.b)
+    for (const double b : starts.exponents()) {
+      all.push_back(with_b_held(thin_runs, q, starts, b));
+      improve(best, system, all.back());
+      Minimum at_wall = tried(system, all.back());
+      if (at_wall.rss < best.rss) best = std::move(at_wall);
+    }
   require_near(thin, best.rss, options);
   all.insert(all.begin(), std::move(best.theta));
   return {q, std::move(all)};

@@ -85,3 +85,43 @@ TEST_CASE("turning run: without a slope it is refused, and told what it needs", 
   CHECK(std::abs(r.a - 5e-5) < 4 * r.sigma_a);
   CHECK(std::abs(r.b - 0.1) < 4 * r.sigma_b);
 }
+
+// For b < 0 the mat would hold the body at its turning point: the sum of squares has a wall at
+// b = 0. The first scene is felt.
+TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the wall b = 0 too",
+          "[fit]") {
+  simulated::Noise noise(1);
+  int off = 0;
+  int fits = 0;
+  for (const double b : {0.0, 0.0244, 0.003, 0.1})
+    for (const double slope : {0.02, 0.03})
+      for (const Route route : {Route::position, Route::velocity})
+        for (int i = 0; i < 2; ++i) {
+          Body body{1, 0.04, 0.5, 9.81, slope};
+          Roll truth(body, Geometry::approximate, PowerLaw{5.75e-4, b}, 0.5);
+          const double way = i % 2 ? 1 : -1;
+          Run run;
+          run.body = body;
+          run.body.slope *= way;
+          for (double t = 0; t < 3.5 + 0.6 * i; t += 0.04) {
+            const Roll::Point p = truth.at(t);
+            run.t.push_back(t);
+            run.x.push_back(way * p.x + noise(3e-4));
+            run.v.push_back(way * p.v + noise(1e-3));
+          }
+          FitOptions options;
+          const FitResult found = fit(route, {run}, options);
+          CAPTURE(b, slope, way, route == Route::position);
+          const auto squares = [](const FitResult& r) {
+            return r.rms * r.rms * static_cast<double>(r.freedom);
+          };
+          for (const double held : {0.0, 0.05, 0.3}) {
+            options.b = held;
+            CHECK(squares(found) < squares(fit(route, {run}, options)) * (1 + 1e-9));
+          }
+          off += std::abs(found.a - 5.75e-4) > 1.96 * found.sigma_a;
+          ++fits;
+        }
+  CHECK(fits == 32);
+  CHECK(off <= 5);  // of 32, each of 1 in 20: more in 1 of 100
+}
