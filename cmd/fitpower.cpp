@@ -36,7 +36,8 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
     options.fit_slope = text == "fit";
     if (!options.fit_slope && !parse_estimate(text, slope))
       fail("'{}' is no number, and not `fit`", shown(text));
-    bodies.body.slope = slope.value, bodies.body.sigma_slope = slope.sigma;
+    bodies.body.slope = slope.value;
+    bodies.body.sigma_slope = slope.sigma;
   });
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
@@ -83,8 +84,9 @@ std::vector<Cell> row_of(const FitOfRuns& fit, bool with_slope) {
   const auto columns = columns_of(r.law.form());
   for (std::size_t j = 0; j < columns.size(); ++j) estimate(columns[j], r.coefficients[j]);
   const auto names = correlations_of(r.law.form());
-  for (std::size_t j = 1, k = 0; j < columns.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) row.push_back({{names[k++]}, r.correlations[i][j]});
+  std::size_t pair = 0;
+  for (std::size_t j = 1; j < columns.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) row.push_back({{names[pair++]}, r.correlations[i][j]});
   row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n), true}});
   const bool roll = r.v0.size() == 1;  // the numbers of one of several are no columns
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
@@ -100,7 +102,10 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
            bool with_slope, bool with_run) {
   std::vector<Column> columns;
   std::vector<Cell> blank = row_of(fitted, with_slope);
-  for (Cell& cell : blank) columns.push_back(cell.column), cell.value = NAN;
+  for (Cell& cell : blank) {
+    columns.push_back(cell.column);
+    cell.value = NAN;
+  }
   if (with_run) columns.push_back({"run"});
   out.names(columns);
   for (const FitOfRuns& fit : fits) {
@@ -115,21 +120,29 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
   out.flush();  // the rows stand above the report
 }
 
+/// The columns of a file without names. If --use says which is t, no column is v or D by its place.
+std::vector<std::string> order_of_columns(const Tool& tool, std::optional<Route> route) {
+  std::vector<std::string> names;
+  if (route || !tool.uses("t"))
+    for (const Quantity q : columns_of(route.value_or(Route::shift)))
+      names.emplace_back(name_of(q));
+  return names;
+}
+
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
-  return in.find("D")                    ? Route::shift
-         : in.find("x") || !in.find("v") ? Route::position
-                                         : Route::velocity;
+  if (in.find("D")) return Route::shift;
+  if (in.find("x") || !in.find("v")) return Route::position;
+  return Route::velocity;
 }
 
 /// Why a route leaves rows out.
 std::string why_left_out(Route route, const FitOptions& options) {
-  std::string why = route == Route::loglog  ? "v or D is not above 0, or the body has stopped"
-                    : route == Route::shift ? "v is not above 0"
-                    : route == Route::velocity
-                        ? "they lie beside an end or a lost reading, where a sensor's speeds are "
-                          "not to be trusted"
-                        : "";
+  std::string why;
+  if (route == Route::loglog) why = "v or D is not above 0, or the body has stopped";
+  if (route == Route::shift) why = "v is not above 0";
+  if (route == Route::velocity)
+    why = "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted";
   if (options.min_speed > 0) add_item(why, "slower than --min-speed", ", or ");
   return why;
 }
@@ -141,7 +154,8 @@ int main(int argc, char** argv) {
   std::optional<Route> given_route;  // none for `fits`
   Bodies bodies;
   FitOptions options;
-  bool each = false, with_report = false;
+  bool each = false;
+  bool with_report = false;
   tool.choice<std::optional<Route>>(
       "--route", given_route,
       {{"fits", {}},
@@ -173,12 +187,7 @@ int main(int argc, char** argv) {
       fit_rows(tool, bodies);
       return 0;
     }
-    // In a file without names no column is v or D by its place where --use says which is t.
-    std::vector<std::string> names;
-    if (given_route || !tool.uses("t"))
-      for (const Quantity q : columns_of(given_route.value_or(Route::shift)))
-        names.emplace_back(name_of(q));
-    Reader& in = tool.read(names);
+    Reader& in = tool.read(order_of_columns(tool, given_route));
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);

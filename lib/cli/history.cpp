@@ -56,7 +56,8 @@ LinearFilter step(bool forward) {
             std::vector<double> v(n);
             for (std::size_t i = 1; i < n; ++i)
               v[forward ? i - 1 : i] = (x[i] - x[i - 1]) / (t[i] - t[i - 1]);
-            if (n > 1) (forward ? v[n - 1] : v[0]) = forward ? v[n - 2] : v[1];
+            if (n > 1 && forward) v[n - 1] = v[n - 2];
+            if (n > 1 && !forward) v[0] = v[1];
             return v;
           }};
 }
@@ -91,8 +92,10 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
   if (!derivative && words[0] != "smooth") return true;
   believe(words.size() > 2);
   const std::string& method = words[2];
-  const bool coast = method == "coast", from = method == "from", to = method == "to",
-             outliers = method == "outliers";
+  const bool coast = method == "coast";
+  const bool from = method == "from";
+  const bool to = method == "to";
+  const bool outliers = method == "outliers";
   if (!derivative && (coast || from || to || outliers)) {
     double number;
     believe(coast ? words.size() == 3 : words.size() == 4 && parse_number(words[3], number));
@@ -106,8 +109,8 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
                      fmt::format("{}", fmt::join(words.begin() + 2, words.end(), " ")));
   believe(options.has_value());
   if (!options->method->linear) return false;
-  const auto column = quantity_named(words[1]),
-             made = column && derivative ? derivative_of(*column) : column;
+  const auto column = quantity_named(words[1]);
+  const auto made = column && derivative ? derivative_of(*column) : column;
   if (!made) return true;  // of no column that is fitted
   if (derivative) forget(filters, *made);
   filters.push_back(linear(*column, *made, *options, reach(*options, t)));
@@ -185,8 +188,8 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body)
   std::string others;
   if (!shift_of) return others;
   for (const UncertainNumber& number : uncertain_numbers) {
-    const Estimate then{shift_of->body.*number.value, shift_of->body.*number.sigma},
-        now{body.*number.value, body.*number.sigma};
+    const Estimate then{shift_of->body.*number.value, shift_of->body.*number.sigma};
+    const Estimate now{body.*number.value, body.*number.sigma};
     if (std::isnan(now.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
       continue;
@@ -202,7 +205,8 @@ bool change_numbers(const FilterChain& filters) {
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
   constexpr std::string_view smoothed = "smooth v ";
   const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first
-  bool a_of_v = false, D_of_v = false;
+  bool a_of_v = false;
+  bool D_of_v = false;
   for (const std::string& line : lines) {
     if (line.starts_with("differentiate v ")) a_of_v = true;
     if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;

@@ -23,9 +23,10 @@ std::string line_of(const ShiftOf&);
 struct History {
   FilterChain filters = {};  ///< empty if the filters are not known
   std::optional<ShiftOf> shift_of = {};
-  std::string doubt = {};  ///< the reason why the lines are not trusted; otherwise empty
-  bool cut_begin = false, cut_end = false;  ///< rows were removed there after a filter
-  std::size_t left_out = 0;                 ///< number of rows that give_filters() left out
+  std::string doubt = {};    ///< the reason why the lines are not trusted; otherwise empty
+  bool cut_begin = false;    ///< rows were removed at the begin after a filter
+  bool cut_end = false;      ///< rows were removed at the end after a filter
+  std::size_t left_out = 0;  ///< number of rows that give_filters() left out
 };
 
 /// The filters in the `##` lines of a run (smooth, differentiate, shift-from-accel), for rows at

@@ -83,12 +83,13 @@ const LawForm& law_named(const std::string& formula) {
 std::vector<Column> columns_of(const LawForm& form) {
   std::vector<Column> all;
   for (const LawForm::Coefficient& c : form.coefficients) {
-    const int m = c.D + c.v, s = -c.v;  // m^m s^s
-    std::string above, below;
-    for (const auto& [unit, power] : {std::pair("m", m), {"s", s}})
-      if (power != 0)
-        (power > 0 ? above : below) +=
-            std::abs(power) == 1 ? unit : fmt::format("{}^{}", unit, std::abs(power));
+    std::string above;
+    std::string below;
+    for (const auto& [unit, power] : {std::pair("m", c.D + c.v), {"s", -c.v}}) {
+      if (power == 0) continue;
+      std::string& side = power > 0 ? above : below;
+      side += std::abs(power) == 1 ? unit : fmt::format("{}^{}", unit, std::abs(power));
+    }
     all.push_back({c.name, above + (below.empty() ? "" : "/" + below)});
   }
   return all;
@@ -138,10 +139,15 @@ LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowN
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
   if (with_errors)
     fail("{}: a table of v and D has no uncertainties: give a row of fitpower", shown(file));
-  const auto v = in.need("v"), D = in.need("D");
-  std::vector<double> speeds, shifts;
+  const auto v = in.need("v");
+  const auto D = in.need("D");
+  std::vector<double> speeds;
+  std::vector<double> shifts;
   while (in.next_run())
-    while (in.next()) speeds.push_back(in[v]), shifts.push_back(in[D]);
+    while (in.next()) {
+      speeds.push_back(in[v]);
+      shifts.push_back(in[D]);
+    }
   try {
     return {TableLaw(std::move(speeds), std::move(shifts))};
   } catch (const Error& error) {

@@ -46,7 +46,8 @@ class LinesOfRuns {
 
  private:
   struct Line {
-    std::string text, alike;  ///< of the first run; without numbers
+    std::string text;   ///< of the first run
+    std::string alike;  ///< the same without numbers
     std::vector<std::string> runs;
   };
   std::vector<Line> lines_;
@@ -205,7 +206,8 @@ class Tool {
   Reader& open(ReaderOptions, std::vector<std::string> order);
   int finish(int status);
 
-  std::string name_, error_line_;
+  std::string name_;
+  std::string error_line_;
   ReaderOptions input_;
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot

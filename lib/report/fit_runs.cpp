@@ -99,11 +99,13 @@ bool take_pulses(Tool& tool, std::vector<Run>& runs) {
 
 void Bodies::give_to(std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size()),
-                   R = of_run(radii, "radius", i, runs.size());
+    const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size());
+    const Estimate R = of_run(radii, "radius", i, runs.size());
     runs[i].body = body;
-    runs[i].body.K = K.value, runs[i].body.sigma_K = K.sigma;
-    runs[i].body.R = R.value, runs[i].body.sigma_R = R.sigma;
+    runs[i].body.K = K.value;
+    runs[i].body.sigma_K = K.sigma;
+    runs[i].body.R = R.value;
+    runs[i].body.sigma_R = R.sigma;
   }
 }
 

@@ -22,22 +22,23 @@ std::vector<Quantity> columns_of(Route);
 /// their windows are not known.
 std::vector<Run> read_runs(Tool&, Reader&, Route);
 
-/// Where the speeds of all runs are those of pulses, a fixed way over the time from row to row,
-/// gives the runs that way as positions, says so, and returns true: the positions are what was
-/// measured.
+/// Speeds of a wheel's pulses are one fixed distance over the time from row to row. If all runs
+/// have such speeds, this gives them the positions of their pulses, which are what was measured,
+/// says so, and returns true.
 bool take_pulses(Tool&, std::vector<Run>&);
 
 /// The bodies as the command line gives them: one shape factor, or one for each run, or none; and
 /// so one radius.
 struct Bodies {
-  Body body = {};  ///< but for K and R
-  std::vector<Estimate> shape_factors = {}, radii = {};
+  Body body = {};  ///< all numbers but K and R
+  std::vector<Estimate> shape_factors = {};
+  std::vector<Estimate> radii = {};
 
   void give_to(std::vector<Run>&) const;
 };
 
-/// Warns of a run that was given twice: in a joint fit it makes the errors too small. All columns
-/// that are fitted are those of the other run: gates and speed bands fix x or v, and measure t.
+/// Warns of a run that was given twice, which makes the errors of a joint fit too small. A copy has
+/// all fitted columns of the other run, t too: gates fix x, speed bands fix v, and both measure t.
 /// Fewer than ten readings may be equal by chance.
 void warn_of_copies(Tool&, Route, const std::vector<Run>&);
 
@@ -54,8 +55,8 @@ void fit_rows(Tool&, const Bodies&);
 struct FitOfRuns {
   Route route;
   std::vector<Run> runs;
-  std::optional<FitResult> result = {};    ///< none where they cannot be fitted
-  std::optional<LawComparison> laws = {};  ///< where laws are compared
+  std::optional<FitResult> result = {};    ///< none if they cannot be fitted
+  std::optional<LawComparison> laws = {};  ///< if laws are compared
 };
 
 /// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) by -4.1 +- 0.4 %, its b by +0.012 +-

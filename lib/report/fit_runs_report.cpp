@@ -17,10 +17,10 @@ namespace {
 /// beside D at 1 m/s, the initial speed or the radius. (sigma_a is 0 for an a that is fixed.)
 bool exact(const FitOfRuns& fit) {
   const FitResult& r = *fit.result;
-  const double scale = fit.route == Route::loglog     ? 1
-                       : fit.route == Route::shift    ? r.coefficients.front().value
-                       : fit.route == Route::velocity ? std::abs(r.v0.front().value)
-                                                      : fit.runs.front().body.R;
+  double scale = 1;  // of ln D
+  if (fit.route == Route::shift) scale = r.coefficients.front().value;
+  if (fit.route == Route::velocity) scale = std::abs(r.v0.front().value);
+  if (fit.route == Route::position) scale = fit.runs.front().body.R;
   return r.rms < 1e-9 * scale;
 }
 
@@ -49,7 +49,7 @@ std::string budget(const FitResult& r) {
   return all;
 }
 
-/// The text with the value; nothing for NaN, as where there are as many parameters as rows.
+/// The text with the value; nothing for NaN, which a fit of as many parameters as rows has.
 std::string known(const char* text, double value) {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
 }
@@ -60,7 +60,8 @@ std::string described(const LawFit& fit, double least) {
   const auto finite = [](const Estimate& c) { return std::isfinite(c.value); };
   if (fit.coefficients.empty() || !std::ranges::all_of(fit.coefficients, finite))
     return fmt::format("D = {}: not determined", fit.law->formula);
-  std::string line = fmt::format("D = {}:", fit.law->formula), corr;
+  std::string line = fmt::format("D = {}:", fit.law->formula);
+  std::string corr;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Estimate& c = fit.coefficients[i];
     line += fmt::format(" {} = {:.6g}{}{}", names[i].name, c.value, known(" +- {:.2g}", c.sigma),
@@ -76,7 +77,7 @@ std::string described(const LawFit& fit, double least) {
 
 std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
 
-/// The remarks on one fit, first what no other of them causes.
+/// The remarks on one fit. Causes come first, then what a cause would bring with it.
 class Remarks {
  public:
   Remarks(Tool& tool, const FitOfRuns& fit, const FitOptions& options)
@@ -112,7 +113,9 @@ class Remarks {
 
   void geometry() {
     for (std::size_t i = 0; i < r_.v0.size(); ++i) {
-      const double v0 = r_.v0[i].value, D = r_.law(std::abs(v0)), R = fit_.runs[i].body.R;
+      const double v0 = r_.v0[i].value;
+      const double D = r_.law(std::abs(v0));
+      const double R = fit_.runs[i].body.R;
       const bool beyond = D > R;
       if (!beyond && std::abs(D) >= levels::least_D_over_R * R) continue;
       tool_.warn(fit_.runs[i].name,
@@ -154,18 +157,22 @@ class Remarks {
     const Quantity fitted = fitted_column(fit_.route);
     const std::vector<double>& y = run[fitted];
     if (std::ranges::count(run.filters, fitted, &LinearFilter::to) > 0) return false;
-    std::size_t rows = 0, repeats = 0, waiting = 0;
-    for (std::size_t i = 1; i < y.size(); ++i) {  // without the rest at the end
+    std::size_t rows = 0;
+    std::size_t repeats = 0;
+    std::size_t waiting = 0;  // rows since the last new reading: those at the end do not count
+    for (std::size_t i = 1; i < y.size(); ++i) {
       ++waiting;
-      if (y[i] != y[i - 1]) rows += waiting, repeats += std::exchange(waiting, 0) - 1;
+      if (y[i] == y[i - 1]) continue;
+      rows += waiting;
+      repeats += std::exchange(waiting, 0) - 1;
     }
     const bool differences = r_.errors == Errors::differences;  // of two readings
-    const double grid = grid_of(y),
-                 of_grid = r_.rms / grid / (differences ? std::numbers::sqrt2 : 1),
-                 share = static_cast<double>(repeats) / static_cast<double>(rows);
-    const bool bare = of_grid > levels::gates_of_grid && of_grid < levels::rounding_of_grid,
-               repeat = repeats >= 10 && of_grid < levels::grid_of_rms &&
-                        share > levels::repeats_of_grid;
+    const double grid = grid_of(y);
+    const double of_grid = r_.rms / grid / (differences ? std::numbers::sqrt2 : 1);
+    const double share = static_cast<double>(repeats) / static_cast<double>(rows);
+    const bool bare = of_grid > levels::gates_of_grid && of_grid < levels::rounding_of_grid;
+    const bool repeat =
+        repeats >= 10 && of_grid < levels::grid_of_rms && share > levels::repeats_of_grid;
     if (!are_held(y) && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
     tool_.warn(run.name, fmt::format("the {} repeat, or have hardly any noise but their rounding: "
                                      "these errors are correlated, and sigma_a and sigma_b may be "
@@ -231,7 +238,8 @@ class Remarks {
   const FitOptions& options_;
   const FitResult& r_;
   std::string run_ = fit_.runs.size() == 1 ? fit_.runs[0].name : "";  ///< none of several
-  bool noisy_, spoilt_ = false;
+  bool noisy_;
+  bool spoilt_ = false;
 };
 
 }  // namespace

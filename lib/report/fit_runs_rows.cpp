@@ -15,7 +15,8 @@ namespace {
 struct FitRows {
   std::vector<OwnLaw> laws;
   std::vector<Run> runs;  ///< the names and bodies of the runs, without readings
-  bool a_fixed = false, b_fixed = false;
+  bool a_fixed = false;
+  bool b_fixed = false;
 
   /// Throws Error for a row that is none of a fit with errors.
   void add(std::string name, Estimate a, Estimate b, double corr) {
@@ -23,7 +24,10 @@ struct FitRows {
     if (a.sigma < 0 || b.sigma < 0 || std::abs(corr) > 1)
       fail("sigma_a, sigma_b or corr is not one of a fit");
     if (a.sigma == 0 && b.sigma == 0) fail("a and b have no errors: were both fixed?");
-    if (laws.empty()) a_fixed = a.sigma == 0, b_fixed = b.sigma == 0;
+    if (laws.empty()) {
+      a_fixed = a.sigma == 0;
+      b_fixed = b.sigma == 0;
+    }
     if (a_fixed != (a.sigma == 0) || b_fixed != (b.sigma == 0))
       fail("{} is fixed in some rows only", a_fixed != (a.sigma == 0) ? "a" : "b");
     if (!laws.empty() && ((a_fixed && std::log(a.value) != laws.front().law.a) ||
@@ -86,7 +90,8 @@ std::vector<CommonError> take_common(FitRows& rows) {
     std::map<std::pair<double, double>, CommonError> by_value;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
       const Body& body = rows.runs[i].body;
-      const double value = body.*number.value, sigma = body.*number.sigma;
+      const double value = body.*number.value;
+      const double sigma = body.*number.sigma;
       if (!(sigma > 0)) continue;
       const double log_a = sigma / (number.value == &Body::K ? value + 1 : value);
       by_value.try_emplace({value, sigma}, rows.runs.size()).first->second[i] = {log_a, 0};
