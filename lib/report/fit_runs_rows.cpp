@@ -59,20 +59,19 @@ FitRows read_rows(Tool& tool) {
   const auto a = in.need_as_is("a", "m"), sigma_a = in.need_as_is("sigma_a", "m"),
              b = in.need_as_is("b"), sigma_b = in.need_as_is("sigma_b"),
              corr = in.need_as_is("corr");
+  const auto rms = in.want("rms"), n = in.want("n");  // NaN in runs that lack them, as these
+  std::vector<std::size_t> sigmas;
+  for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
+    sigmas.push_back(in.want(number));
   FitRows rows;
   while (in.next_run()) {
     const auto name = in.find("run");
-    const bool sized = in.find("rms") && in.find("n");
-    const auto rms = in.want("rms"), n = in.want("n");
-    std::vector<std::size_t> sigmas;
-    for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
-      if (in.find(number)) sigmas.push_back(in.want(number));
     while (in.next()) {
       rows.add(name ? std::string(in.text(*name)) : in.where(), {in[a], in[sigma_a]},
                {in[b], in[sigma_b]}, in[corr]);
       const auto parameters = static_cast<double>(  // what is fixed has no error
           std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
-      if (!sized || !(in[n] > parameters) || !(in[rms] > 0)) continue;
+      if (!(in[n] > parameters) || !(in[rms] > 0)) continue;
       rows.laws.back().rms = in[rms];
       rows.laws.back().freedom = in[n] - parameters;
     }
