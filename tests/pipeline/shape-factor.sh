@@ -29,7 +29,7 @@ awk '{ sum += $1; squares += $1^2 }
   "$scratch/pulls" >"$scratch/said" || { echo "pulls: $(cat "$scratch/said")"; exit 1; }
 
 # A torque that is 2 % wrong; the runs are made with the right one.
-cp samples/CR.csv samples/SR.csv "$scratch"
+cp samples/CR.csv samples/SR.csv samples/script.sh "$scratch"
 sed '/^acceleration/,/^make_runs/ s/w \* (g - r \* alpha) \* r/w * (g - r * alpha) * 1.02 * r/' \
   samples/shape-factor.sh >"$scratch/wrong.sh"
 cmp -s samples/shape-factor.sh "$scratch/wrong.sh" && { echo "nothing was changed"; exit 1; }
