@@ -115,7 +115,8 @@ class IntegratedRoll final : public SolvedRoll {
 
 /// The solver for this stiffness. With q = c D(v0), the bulge and v follow each other within the
 /// time length/(v0 + damping q), and the body slows down within v0/q + damping b. If the ratio of
-/// these times exceeds 3e4 the system is stiff: the result is rk4imp, otherwise rk8pd.
+/// these times exceeds 3e4 the system is stiff, and the result is rk4imp; above 2e7 it is bsimp,
+/// whose steps do not shrink with the length; otherwise rk8pd.
 Stepper memory_stepper(const Scene&);
 
 /// x' = v, v' = -g D / ((K + A) R) (Eq. 12), z as in Bulge; z = D(v0) at t = 0.

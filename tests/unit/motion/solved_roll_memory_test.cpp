@@ -187,6 +187,35 @@ TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluatio
   }
 }
 
+TEST_CASE("MemoryRoll: down to any length the default needs few evaluations and finds the stop",
+          "[rolling]") {
+  // Of 1e-8 m the stop by rk4imp, whose steps shrink with the length.
+  MemoryRoll slow = roll(scene({1e-8}), Stepper::rk4imp);
+  const double known = slow.stop_time();
+  CHECK(std::abs(roll({1e-8}).stop_time() - known) < 1e-8 * known);
+  // The way differs from that of the law by some lengths and the tolerance of 1e-10, and the stop
+  // tends to its stop.
+  const auto law_owned = closed_roll(cylinder, rubber, 0.5, 0);
+  Motion& law = *law_owned;
+  law.seek(3);
+  double later = INFINITY;
+  for (const double length : {1e-7, 9e-8, 4e-8, 1e-8, 1e-9, 1e-11, 1e-12, 1e-13, 1e-15}) {
+    INFO(length);
+    MemoryRoll motion = roll({length});
+    const double stop = motion.stop_time();
+    CHECK(motion.evaluations() < 150000);
+    CHECK(stop > law.stop_time());
+    CHECK(stop - law.stop_time() < later);
+    later = stop - law.stop_time();
+    motion.seek(3);
+    CHECK(std::abs(motion.position() - law.position()) < 5 * length + 2e-10);
+  }
+  CHECK(later < 1e-6 * law.stop_time());
+  // Both sides of the limit: the ratio of the times is 0.95 / length.
+  CHECK(memory_stepper(scene({5e-8})) == Stepper::rk4imp);
+  CHECK(memory_stepper(scene({4.5e-8})) == Stepper::bsimp);
+}
+
 TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]") {
   for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
     MemoryRoll motion = roll({1e-3}, geometry);
