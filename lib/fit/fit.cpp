@@ -91,6 +91,10 @@ bool both_ways(const Fitted& found) {
 /// down as the law does and is told from it by runs in both directions, or by a law a v^b that is
 /// well known, but never from a constant d0.
 void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found) {
+  const auto not_visited = [&](std::size_t number) {
+    const auto at = std::ranges::find(result.not_visited, number, &Interval::number);
+    return at == result.not_visited.end() ? nullptr : &*at;
+  };
   const LawForm& form = result.law.form();
   const bool has_errors = result.errors != Errors::none;
   double all = has_errors ? result.rms : 0;
@@ -102,20 +106,22 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   const auto shown = [&](const Estimate& c) {
     return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
   };
-  // Large errors of a nonlinear fit are not reliable themselves; hence these limits on them.
   const Estimate first = result.coefficients.front();
   if (options.fit_slope && !both_ways(found) &&
-      !(result.law.power() && first.sigma < first.value / 10 && result.sigma_b < 0.1))
+      !(has_errors && result.law.power() && !not_visited(0) &&
+        !not_visited(form.coefficients.size())))
     fail(
         "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
         "apart ({} comes out as {}): add runs in the other direction",
         form.coefficients.front().name, shown(first));
-  for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
+  for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
     const Estimate& c = result.coefficients[j];
     const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0;
-    const bool known =
-        has_errors ? c.sigma <= levels::largest_sigma_b : options.b || std::abs(c.value) <= 10;
-    if (is_exponent && !known)
+    bool known = !is_exponent || options.b || std::abs(c.value) <= 10;
+    if (has_errors) known = !is_exponent || c.sigma <= levels::largest_sigma_b;
+    if (const Interval* profile = not_visited(j))
+      known = known && (std::isfinite(profile->lower) || std::isfinite(profile->upper));
+    if (!known)
       fail("the data do not determine {}, which comes out as {}: {}{}", form.coefficients[j].name,
            shown(c), choose_the_roll, options.fits_power() ? "; or fix it, --fix b=0" : "");
   }
@@ -165,11 +171,22 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
   require_roll(found);
-  require_determined(result_of(found, rms, noise, shares), options, found);
+  std::vector<Interval> not_visited;
+  const bool of_minimum = !options.robust && (!agreement || agreement->agree());
+  if (of_minimum && noise.kind != Errors::none)
+    not_visited = intervals_not_visited(found, noise, options);
+  FitResult of_noise = result_of(found, rms, noise, shares);
+  of_noise.not_visited = not_visited;
+  require_determined(of_noise, options, found);
   for (ErrorShare& share :
        shares_of_inputs(route, runs, options, found, !agreement || agreement->agree()))
     shares.push_back(std::move(share));
   if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
+  if (found.error_of_clock > 0) {
+    std::vector<double> of_v0(found.numbers().size());
+    of_v0[of_v0.size() - 1 - !found.x0.empty()] = found.error_of_clock;
+    shares.push_back({"clock", outer_square(of_v0)});
+  }
   FitResult result = result_of(found, rms, noise, std::move(shares));
   if (!is_trajectory(route)) result.v0 = {};
   for (const Rows& readings : usable(route, runs)) result.left_out += readings.size();
@@ -177,6 +194,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   result.off = off;
+  result.not_visited = std::move(not_visited);
   if (!options.robust) result.reversals = few_reversals(found);
   return result;
 }

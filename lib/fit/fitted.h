@@ -46,6 +46,7 @@ struct Fitted {
   std::size_t negative = 0;                     ///< see FitResult
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
   std::vector<double> bias = {};  ///< the expected bias of each; empty where it is not known
+  double error_of_clock = 0;  ///< of the v0 of the first run, if its rows do not tell their times
   std::optional<FittedNumber> slope = {};  ///< if it is a parameter
   std::vector<FittedNumber> v0 = {};       ///< one for each run, if the model is a roll
   std::vector<FittedNumber> x0 = {};       ///< likewise, if positions are fitted

@@ -45,6 +45,16 @@ Fitted fit_of_disagreeing(Route, const std::vector<Run>&, const FitOptions&);
 std::vector<ErrorShare> shares_of_inputs(Route, const std::vector<Run>&, const FitOptions&,
                                          const Fitted&, bool agree);
 
+/// The coefficients, and the slope, whose interval of 1.96 standard errors of the noise is none. An
+/// error is linearised; the sum of squares tells the truth. Each number is held at either end of
+/// its interval, and all parameters are fitted again. If the model is linear, the sum of squares
+/// rises there by 3.84 variances of white noise. If it does not, within the factor levels::rise,
+/// the interval of the profile stands in its place: up to where the sum of squares has risen so far
+/// (Venzon and Moolgavkar 1988, Appl. Stat. 37, 87). Only numbers are visited whose interval is in
+/// doubt, since a few rows bend by more than levels::bent over it.
+std::vector<Interval> intervals_not_visited(const Fitted&, const Uncertainty& noise,
+                                            const FitOptions&);
+
 /// A disturbed beginning: the first rows of a run do not follow the motion of the other ones,
 /// because of a hand that still pushes or of sliding.
 struct Beginning {

@@ -51,6 +51,13 @@ struct ErrorShare {
   double sigma(std::size_t number) const { return std::sqrt(covariance[number][number]); }
 };
 
+/// An interval of 95 % of a number by the profile of the sum of squares, see
+/// intervals_not_visited(). An end is infinite if the readings do not bound it.
+struct Interval {
+  std::size_t number;  ///< of the coefficient; the slope follows the last one
+  double lower, upper;
+};
+
 /// The covariance that a change brings when it has a standard uncertainty of one.
 inline Matrix outer_square(const std::vector<double>& change) {
   Matrix all;
@@ -83,6 +90,7 @@ struct FitResult {
   std::optional<Agreement> agreement = {};        ///< for two or more runs
   OffReadings off = {};                           ///< of the run with the reading furthest off
   std::vector<ErrorShare> shares = {};            ///< the noise first
+  std::vector<Interval> not_visited = {};         ///< in place of 1.96 standard errors
 };
 
 /// True if the noise is autocorrelated, by a small p, and the standard errors allow for that.

@@ -27,7 +27,8 @@ std::vector<Response> responses_by(const LinearFilter& filter, const std::vector
 struct Maker {
   const LinearFilter* filter = nullptr;
   double share = 0;
-  double gain = 0;  // ln of the likelihood ratio to white noise beside a roll without a filter
+  double gain = 0;       // ln of the likelihood ratio to white noise beside a roll without a filter
+  bool another = false;  // filter is nearly as likely
 };
 
 /// The filter and the share with the largest restricted likelihood; no filter if white noise alone
@@ -43,12 +44,16 @@ Maker most_likely(const std::vector<Run>& all, const std::vector<Rows>& rows,
   };
   const double of_white_noise = restricted_likelihood(evaluated(system_of(model_of({})), theta));
   Maker best;
+  std::vector<double> gains;
   for (const LinearFilter& filter : options.possible_filters) {
     const WhiteShare found =
         most_likely_share(model_of(responses_by(filter, all)), theta, least, most);
     const double gain = found.likelihood - of_white_noise;
     if (gain >= levels::likely_filter && gain > best.gain) best = {&filter, found.share, gain};
+    gains.push_back(gain);
   }
+  const auto near = [&](double gain) { return gain > best.gain - levels::likely; };
+  best.another = std::ranges::count_if(gains, near) > 1;
   return best;
 }
 
@@ -81,26 +86,29 @@ bool leave_out_irregular(const std::vector<Run>& all, std::vector<Rows>& rows, s
   return true;
 }
 
-/// How long before its row, on average, a filter takes its speed; 0 for uneven times, where the
-/// filter knows.
-double lag_of(const LinearFilter& filter, const std::vector<double>& t) {
-  const std::size_t n = t.size();
-  const double step = (t[n - 1] - t[0]) / static_cast<double>(n - 1);
-  std::vector<double> squares;
-  for (std::size_t i = 1; i < n; ++i)
-    if (std::abs(t[i] - t[i - 1] - step) > 0.01 * step) return 0;
-  for (const double x : t) squares.push_back((x - t[0]) * (x - t[0]));
-  const std::size_t middle = n / 2;
-  return t[middle] - t[0] - filter.apply(t, squares)[middle] / 2;
+/// How long before its row, on average, a filter takes its speed, on even times of this step.
+double lag_of(const LinearFilter& filter, double step) {
+  const std::size_t n = 4 * filter.reach + 1;
+  const std::size_t middle = 2 * filter.reach;
+  std::vector<double> t(n);
+  std::vector<double> squares(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    t[i] = step * static_cast<double>(i);
+    squares[i] = t[i] * t[i];
+  }
+  return t[middle] - filter.apply(t, squares)[middle] / 2;
 }
 
-/// On even times differences to the row before, to the row after and over the middle of a step
-/// differ in the clock alone. The speeds are taken as those of their rows, as they are said to be.
+/// Differences to the row before and to the row after differ in the clock alone if the times are
+/// even. If the rows do not tell them apart, v0 is the mean of both, and half of their difference
+/// is an error of it.
 void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<Run>& all) {
   for (std::size_t r = 0; r < all.size(); ++r) {
-    double& v0 = fit.v0[r].value;
-    v0 -=
-        std::copysign(lag_of(filter, all[r].t), v0) * fit.model.roll(fit.minimum.theta, r).at(0).a;
+    const std::vector<double>& t = all[r].t;
+    const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+    const double lost = lag_of(filter, step) * fit.model.roll(fit.minimum.theta, r).at(0).a;
+    fit.v0[r].value -= fit.model.runs()[r].way * lost;
+    if (r == 0) fit.error_of_clock = std::abs(lost);
   }
 }
 
@@ -148,7 +156,7 @@ std::optional<Fitted> fit_differences(const std::vector<Run>& all, const FitOpti
                            responses_by(*maker.filter, all), options, {maker.share, true});
     const Uncertainty found = uncertainty_of(fit);
     if (found.whiteness > levels::not_white && found.kind != Errors::uneven) {
-      set_clock(fit, *maker.filter, all);
+      if (maker.another) set_clock(fit, *maker.filter, all);
       return fit;
     }
   } catch (const Error&) {  // too few rows, or no minimum

@@ -99,6 +99,16 @@ void Triangles::solve_transposed(std::size_t run, std::span<double> g) const {
   }
 }
 
+std::vector<double> Triangles::step_that_changes(std::vector<double> g, double value) const {
+  solve_transposed(0, g);
+  const double unit = value / dot(g, g);
+  Triangles along = *this;
+  for (std::size_t r = 0; r < runs_; ++r)
+    for (std::size_t j = 0; j < q(); ++j)
+      along.of(r)[j * (q() + 1) + q()] = r > 0 && j < own_ ? 0 : -unit * g[j];
+  return along.solve();
+}
+
 double Triangles::reduction(std::size_t from) const {
   double sum = 0;
   rows([&](std::size_t, std::size_t j, const double* row) {

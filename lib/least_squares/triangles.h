@@ -30,6 +30,9 @@ class Triangles {
   std::vector<double> solve() const;
   /// Replaces g by R^-T g for the columns of one run.
   void solve_transposed(std::size_t run, std::span<double> g) const;
+  /// The theta of least |J theta| at which the linear number with this gradient, by the columns of
+  /// the first run, has this value.
+  std::vector<double> step_that_changes(std::vector<double> gradient, double value) const;
   /// The reduction of the sum of squares from theta = 0 to that minimum; of a single run, by the
   /// columns from this one on alone, beside those before them.
   double reduction(std::size_t from = 0) const;

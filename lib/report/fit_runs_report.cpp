@@ -92,6 +92,7 @@ class Remarks {
     if (noisy_) causes();
     const LawForm& law = r_.law.form();
     const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
+    if (noisy_ && !spoilt_) intervals();
     if (noisy_ && !spoilt_ && !other_law) residuals();
     if (noisy_ && r_.sigma_slope > 0 && fit_.runs.size() == 2)
       tool_.warn("",
@@ -184,11 +185,6 @@ class Remarks {
 
   /// Warns of what the residuals show. A body out of balance makes the rest of it.
   void residuals() {
-    if (r_.a > 0 && r_.sigma_a > levels::uncertain_a * r_.a)
-      tool_.warn(run_, fmt::format("sigma_a is {:.2g} times a: this ratio is the standard "
-                                   "uncertainty of ln a, and a is too uncertain for the interval "
-                                   "a +- sigma_a",
-                                   r_.sigma_a / r_.a));
     if (const auto& found = r_.eccentricity)
       return tool_.warn(
           fit_.runs[found->run].name,
@@ -208,6 +204,22 @@ class Remarks {
       tool_.warn(run_,
                  "the noise is not of one size along the run, which its uncertainties take into "
                  "account: look at the residuals");
+  }
+
+  /// Tells the intervals that are not those of 1.96 standard errors.
+  void intervals() {
+    const LawForm& form = r_.law.form();
+    std::string all;
+    for (const Interval& of : r_.not_visited) {
+      const bool slope = of.number == form.coefficients.size();
+      const std::string name = slope ? "slope" : form.coefficients[of.number].name;
+      if (std::isinf(of.lower) && std::isinf(of.upper)) add_item(all, name + " not bounded");
+      else if (std::isinf(of.lower)) add_item(all, fmt::format("{} below {:.3g}", name, of.upper));
+      else if (std::isinf(of.upper)) add_item(all, fmt::format("{} above {:.3g}", name, of.lower));
+      else add_item(all, fmt::format("{} {:.3g} to {:.3g}", name, of.lower, of.upper));
+    }
+    if (!all.empty())
+      tool_.object(run_, "+- 1.96 sigma is no 95 % interval here; the sum of squares gives " + all);
   }
 
   void tell_not_white() {

@@ -45,10 +45,13 @@ inline constexpr double gates_of_grid = 0.2, rounding_of_grid = 0.32;
 /// AICc by which another law leaves a v^b no support (Burnham and Anderson 2002, section 2.6), and
 /// by which a v^b is said to be as good as any other.
 inline constexpr double another_law = 10, no_better_law = 2;
-/// sigma_a/a above which a +- sigma_a is no interval: ln a has the normal distribution. There a +-
-/// 1.96 sigma_a holds the truth in 93.6 %, but misses it by 3 sigma_a six times too often.
-inline constexpr double uncertain_a = 0.3;
-/// A larger error of b is not reliable itself.
+/// The sum of squares at either end of an interval has risen as it should within this factor.
+inline constexpr double rise = 1.35;
+/// A model is bent if a step of 1.96 standard errors differs by more than this share of itself from
+/// a linear one.
+inline constexpr double bent = 0.1;
+/// A larger error of b is no knowledge of a mat: D at half of a speed is not known to a factor of
+/// 50.
 inline constexpr double largest_sigma_b = 3;
 /// b lies below -1/2 by so many standard errors: no mat is known whose shift grows so at rest.
 inline constexpr double least_b = -0.5, below_least_b = 3;

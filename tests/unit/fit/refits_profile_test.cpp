@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Intervals that were visited: where 1.96 standard errors are none, a fit says so.
+#include "fit/refits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fit/fit.h"
+#include "motion/roll.h"
+#include "unit/catch.h"
+#include "unit/fit/simulated.h"
+
+using namespace rolling;
+
+namespace {
+
+struct Scene {
+  const char* name;
+  std::size_t law;
+  std::vector<double> c;
+  Body body;
+  double v0, end, dt, noise;
+};
+
+/// Of runs of a scene: how often an interval of coefficient j is told, and how often the interval
+/// that is valid, the told one or that of 1.96 standard errors, holds the truth.
+struct Count {
+  int told = 0;
+  int held = 0;
+};
+
+Count count(const Scene& scene, std::size_t j, int runs) {
+  const LawForm& form = laws()[scene.law];
+  Roll truth(scene.body, Geometry::approximate, Law::as_written(form, scene.c), scene.v0);
+  simulated::Noise noise(1);
+  FitOptions options;
+  options.law = &form;
+  Count all;
+  for (int k = 0; k < runs; ++k) {
+    Run run;
+    run.body = scene.body;
+    for (double t = 0; t < std::min(scene.end, truth.stop_time()); t += scene.dt) {
+      run.t.push_back(t);
+      run.x.push_back(truth.at(t).x + noise(scene.noise));
+    }
+    const FitResult r = fit(Route::position, {run}, options);
+    const Estimate c = r.coefficients[j];
+    const bool linear = std::abs(c.value - scene.c[j]) < 1.96 * c.sigma;
+    const auto at = std::ranges::find(r.not_visited, j, &Interval::number);
+    const bool told = at != r.not_visited.end();
+    all.told += told;
+    all.held += told ? at->lower < scene.c[j] && scene.c[j] < at->upper : linear;
+  }
+  return all;
+}
+
+const Body cylinder{1, 0.04, 0.5};
+const Body ball{1, 0.11, 0.4};
+
+}  // namespace
+
+TEST_CASE("visited intervals: those of good runs are intervals, and none is told", "[fit]") {
+  const Scene scenes[] = {{"rubber", 0, {1.87e-3, 0.215}, cylinder, 0.5, 2.3, 0.04, 3e-4},
+                          {"felt", 0, {5.75e-4, 0.0244}, cylinder, 0.5, 5, 0.04, 3e-4},
+                          {"three", 3, {8e-4, 3e-4, 3e-4}, ball, 1.8, 5, 1. / 30, 3e-4}};
+  for (const Scene& scene : scenes)
+    for (std::size_t j = 0; j < scene.c.size(); ++j) {
+      CAPTURE(scene.name, j);
+      const Count found = count(scene, j, 40);
+      CHECK(found.told == 0);
+      CHECK(found.held >= 33);  // of 40 with .95: fewer in 1 of 1000
+    }
+}
+
+// Of 40 intervals of 95 % fewer than 33 hold the truth in 1 of 1000.
+TEST_CASE("visited intervals: of a curved valley the profile's are told, and hold", "[fit]") {
+  const Scene relaxation{"relaxation", 6, {4e-4, 9e-4, 0.3}, cylinder, 0.5, 2, 0.04, 3e-4};
+  const Count w = count(relaxation, 2, 40);
+  CHECK(w.told >= 30);
+  CHECK(w.held >= 33);
+  const Scene both{"d0 + a v^b", 5, {8e-4, 7e-4, 1.5}, ball, 1.8, 5, 1. / 30, 3e-4};
+  for (const std::size_t j : {0, 1}) {
+    const Count found = count(both, j, 40);
+    CHECK(found.told >= 38);
+    CHECK(found.held >= 33);
+  }
+}
+
+// If ln a is normal with a standard deviation of s, the sum of squares at a(1 +- 1.96 s) has risen
+// by (ln(1 +- 1.96 s)/s)^2: at the lower end by more than 1.35 times 3.84 from s = 0.146 on.
+TEST_CASE("visited intervals: an a with more than a seventh of error has no interval", "[fit]") {
+  for (const double size : {0.12, 0.17}) {
+    Run run;
+    run.t = {0};
+    run.body = cylinder;
+    FitOptions options;
+    options.b = 0;
+    // D of rows that scatter by so much that the mean has this relative error.
+    constexpr int n = 50;
+    for (int i = 0; i < n; ++i) {
+      run.v.push_back(0.1 + 0.01 * i);
+      run.D.push_back(1e-3 * (1 + (i % 2 ? 1 : -1) * size * std::sqrt(n)));
+    }
+    run.t.resize(n);
+    std::iota(run.t.begin(), run.t.end(), 0.0);
+    const FitResult r = fit(Route::shift, {run}, options);
+    CAPTURE(size, r.a, r.sigma_a);
+    CHECK(r.not_visited.empty() == (r.sigma_a / r.a < 0.146));
+  }
+}
