@@ -21,7 +21,7 @@ void fix(FitOptions& options, const std::string& setting) {
   const auto parameter = parameters.find(setting.substr(0, equals));
   double value;
   if (equals == std::string::npos || parameter == parameters.end())
-    fail("'{}' is not NAME=VALUE with a name that it knows", shown(setting));
+    fail("'{}' is not NAME=VALUE with a NAME of a, b, v0 and x0", shown(setting));
   if (!parse_number(std::string_view(setting).substr(equals + 1), value))
     fail("the value in '{}' is not a number", shown(setting));
   if (*parameter->second) fail("'{}' comes after another for {}", shown(setting), parameter->first);

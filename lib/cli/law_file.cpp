@@ -9,10 +9,12 @@
 namespace rolling {
 namespace {
 
-/// A formula without what a person may write or leave out.
+/// A formula without what a person may write or leave out. Coast-down tests call d0, d1 and d2 f0,
+/// f1 and f2.
 std::string bare(std::string formula) {
   std::erase_if(formula, [](char c) { return c == ' ' || c == '*'; });
   std::ranges::replace(formula, 'n', 'b');
+  std::ranges::replace(formula, 'f', 'd');
   return formula;
 }
 

@@ -14,7 +14,8 @@
 namespace rolling {
 
 /// The law of the table with this formula: "d0+d2*v^2", blanks and * or not. The exponent of
-/// d0 + a v^b may be called n. Throws Error, which lists them, for another.
+/// d0 + a v^b may be called n, and d0, d1, d2 may be called f0, f1, f2. Throws Error, which lists
+/// the laws, for another formula.
 const LawForm& law_named(const std::string& formula);
 
 /// The columns of the coefficients of a law: d0[m], d2[s^2/m].

@@ -118,9 +118,9 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<Run>& runs) {
       readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
     }
     if (readings.back().size() >= 10 * sizeof(double) && !different.insert(readings).second)
-      tool.warn(run.name,
-                "its readings are those of a run before it: leave copies out, for each counts as "
-                "one more roll");
+      tool.object(run.name,
+                  "its readings are those of a run before it: leave copies out, for each counts as "
+                  "one more roll");
   }
 }
 

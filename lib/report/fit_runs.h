@@ -37,9 +37,9 @@ struct Bodies {
   void give_to(std::vector<Run>&) const;
 };
 
-/// Warns of a run that was given twice, which makes the errors of a joint fit too small. A copy has
-/// all fitted columns of the other run, t too: gates fix x, speed bands fix v, and both measure t.
-/// Fewer than ten readings may be equal by chance.
+/// Objects to a run that was given twice, which makes the errors of a joint fit too small. A copy
+/// has all fitted columns of the other run, t too: gates fix x, speed bands fix v, and both measure
+/// t. Fewer than ten readings may be equal by chance.
 void warn_of_copies(Tool&, Route, const std::vector<Run>&);
 
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
@@ -64,12 +64,12 @@ struct FitOfRuns {
 std::string disagreement(const Agreement&, const std::vector<Run>&);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
-/// or repeat, a b far below what mats have. Where there is none of it, and no law is better, also
-/// of what such a cause would bring with it: noise that is not white, an eccentric body, an a whose
-/// error is not that of a normal distribution. A check fails by runs that disagree, a reading that
-/// is off and such a b; by standard errors that do not exist (unless a and b are both fixed),
-/// another law that is better by 10 in AICc, the beginning of a run that is disturbed, and
-/// residuals that are not white.
+/// or repeat, a b far below what mats have. If there is none of it, and no law is better, also of
+/// what such a cause would bring with it: noise that is not white, an eccentric body, an a whose
+/// error is not that of a normal distribution. A check fails by a shift beyond the radius, runs
+/// that disagree, a reading that is off, such a b and such an a; by standard errors that do not
+/// exist (unless a and b are both fixed), another law that is better by 10 in AICc, the beginning
+/// of a run that is disturbed, and residuals that are not white.
 void remark(Tool&, const FitOfRuns&, const FitOptions&);
 
 /// Reports how the uncertainties were made, and of which parts; the coefficients of all laws, and

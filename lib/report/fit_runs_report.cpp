@@ -93,7 +93,10 @@ class Remarks {
     const LawForm& law = r_.law.form();
     const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
     if (noisy_ && !spoilt_) intervals();
-    if (noisy_ && !spoilt_ && !other_law) residuals();
+    if (!spoilt_ && !other_law) {
+      if (!noisy_ || r_.not_visited.empty()) uncertain_a();
+      if (noisy_) residuals();
+    }
     if (noisy_ && r_.sigma_slope > 0 && fit_.runs.size() == 2)
       tool_.warn("",
                  "two rolls alone tell the slope: what their laws differ by counts as slope, and "
@@ -119,11 +122,12 @@ class Remarks {
       const double R = fit_.runs[i].body.R;
       const bool beyond = D > R;
       if (!beyond && std::abs(D) >= levels::least_D_over_R * R) continue;
-      tool_.warn(fit_.runs[i].name,
-                 fmt::format("no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} "
-                             "the radius {} m: the units of a column are hardly right",
-                             v0, D, beyond ? "beyond" : "not a ten-thousandth of", R));
-      spoilt_ = beyond;
+      const std::string text = fmt::format(
+          "no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} the radius {} m: "
+          "the units of a column are hardly right",
+          v0, D, beyond ? "beyond" : "not a ten-thousandth of", R);
+      if (beyond) object(fit_.runs[i].name, text);
+      else tool_.warn(fit_.runs[i].name, text);
       break;
     }
   }
@@ -181,6 +185,15 @@ class Remarks {
                                      "see how several runs scatter",
                                      positions ? "positions" : "speeds"));
     return true;
+  }
+
+  /// An a whose interval a +- sigma_a does not hold what it says, also of rows without noise.
+  void uncertain_a() {
+    if (r_.a > 0 && r_.sigma_a > levels::uncertain_a * r_.a)
+      tool_.object(run_, fmt::format("sigma_a is {:.2g} times a: this ratio is the standard "
+                                     "uncertainty of ln a, and a is too uncertain for the interval "
+                                     "a +- sigma_a",
+                                     r_.sigma_a / r_.a));
   }
 
   /// Warns of what the residuals show. A body out of balance makes the rest of it.

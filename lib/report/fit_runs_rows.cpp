@@ -48,13 +48,14 @@ void warn_of_same_rows(Tool& tool, const FitRows& rows) {
   for (const OwnLaw& row : rows.laws) {
     const Symmetric& C = row.covariance;
     if (!different.insert({row.law.a, row.law.b, C.aa, C.ab, C.bb}).second)
-      tool.warn(rows.runs[row.run].name,
-                "its numbers are those of a row before it: leave copies out");
+      tool.object(rows.runs[row.run].name,
+                  "its numbers are those of a row before it: leave copies out");
   }
 }
 
 FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
+  if (in.find("d0")) fail("these are rows of another law: --route fits joins rows of a v^b only");
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
   const auto a = in.need_as_is("a", "m"), sigma_a = in.need_as_is("sigma_a", "m"),
              b = in.need_as_is("b"), sigma_b = in.need_as_is("sigma_b"),

@@ -53,6 +53,9 @@ inline constexpr double bent = 0.1;
 /// A larger error of b is no knowledge of a mat: D at half of a speed is not known to a factor of
 /// 50.
 inline constexpr double largest_sigma_b = 3;
+/// sigma_a/a above which a +- sigma_a is no interval: ln a has the normal distribution. There a +-
+/// 1.96 sigma_a holds the truth in 93.6 %, but misses it by 3 sigma_a six times too often.
+inline constexpr double uncertain_a = 0.3;
 /// b lies below -1/2 by so many standard errors: no mat is known whose shift grows so at rest.
 inline constexpr double least_b = -0.5, below_least_b = 3;
 /// D/R of rolling bodies, from steel on steel to a wheel in sand.
