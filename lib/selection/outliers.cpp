@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "base/grid.h"
@@ -16,11 +15,17 @@ namespace {
 /// run, where the parabola goes beyond its samples, it needs more of them.
 constexpr std::size_t near = 11, near_end = 26;
 
-/// Of normal noise, found in 4000 windows: the lower quartile of the root of the RSS of `near`
-/// samples about their parabola, over sqrt(8); and, in 600 windows for each of five n from 10 to
-/// 25, to 0.02, the median scatter of all but the three worst of n samples about theirs.
+/// The lower quartile of the scatter of `near` normal readings about their parabola, in units of
+/// their standard deviation: the root of that of chi square with 8 degrees of freedom, over 8.
 constexpr double quartile = 0.79;
+
+/// The median scatter of n normal readings about their parabola when the three worst are left out,
+/// to 0.02. It was found in 600 simulated windows for each of five n from 10 to 25.
 double of_best(std::size_t n) { return std::max(0.346, 1 - 6.5 / static_cast<double>(n)); }
+
+/// Readings scatter if they do so by this many standard deviations; of eleven normal ones, one set
+/// in 200 does.
+constexpr double scatters = 1.7;
 
 Width at_least_151(Width width) {
   constexpr std::size_t least = 151;
@@ -83,9 +88,10 @@ Outliers::Outliers(Width width, double threshold)
 std::span<const Sample> Outliers::push(double t, double y) {
   judged_.clear();
   if (count_++ > 0) large_ = std::max(large_, std::min(std::abs(y), std::abs(last_)));
-  const double least = program_rounding * large_, step = y - last_, before = last_ - before_;
-  for (const double digit :
-       {count_ > 1 ? std::abs(step) : 0, count_ > 2 ? std::abs(step - before) : 0})
+  const double least = program_rounding * large_;
+  const double first = count_ > 1 ? std::abs(y - last_) : 0;
+  const double second = count_ > 2 ? std::abs((y - last_) - (last_ - before_)) : 0;
+  for (const double digit : {first, second})
     if (digit > least && (digit < step_ || step_ <= least)) step_ = digit;
   before_ = std::exchange(last_, y);
   near_.push(t, y);
@@ -109,34 +115,52 @@ double Outliers::least_scatter() const { return std::max(step_ / 3, program_roun
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
 bool Outliers::few() const { return scatter_.size() < 3 * near; }
 
-/// Whether sample i is on the motion of its neighbours. `again`: outliers beside it are known,
-/// which may have hidden it.
-bool Outliers::belongs(std::size_t i, bool again) const {
+std::deque<Outliers::Judged>::const_iterator Outliers::at(std::size_t i) const {
+  return samples_.begin() + static_cast<std::ptrdiff_t>(i - first_);
+}
+
+Outliers::Range Outliers::around(std::size_t i) const {
   const bool inside = i >= near / 2 && i + near / 2 < count_;
-  const std::size_t size = inside ? near : near_end,
-                    begin = std::max(first_, std::min(i - std::min(i, near / 2),
-                                                      count_ - std::min(count_, size))),
-                    end = std::min(std::max(i + near / 2 + 1, begin + size), count_);
-  const auto at = [&](std::size_t j) {
-    return samples_.begin() + static_cast<std::ptrdiff_t>(j - first_);
-  };
+  const std::size_t size = inside ? near : near_end;
+  const std::size_t before = i - std::min(i, near / 2);
+  const std::size_t last = count_ - std::min(count_, size);
+  const std::size_t begin = std::max(first_, std::min(before, last));
+  return {begin, std::min(std::max(i + near / 2 + 1, begin + size), count_)};
+}
+
+/// Whether sample i is on the motion of its neighbours.
+bool Outliers::belongs(std::size_t i) const {
   const Judged& s = *at(i);
-  if (again && std::all_of(at(i - std::min(i - begin, std::size_t{1})), at(std::min(i + 2, end)),
-                           std::mem_fn(&Judged::kept)))
-    return true;
-  const Neighbours others(at(begin), at(end), s,
-                          [&](const Judged& of) { return &of != &s && (!again || of.kept); });
+  const auto [begin, end] = around(i);
+  const Neighbours others(at(begin), at(end), s, [&](const Judged& of) { return &of != &s; });
   if (others.size < 4) return true;
   double noise = (few() ? least_scatter() : s.noise) / others.unit;
   Polynomial<3> motion = others.parabola();
-  if (others.scatter(motion) > 1.7 * noise) {  // of normal noise, one in 200
-    if (again) return true;
+  if (others.scatter(motion) > scatters * noise) {
     motion = others.best_parabola();
     const double own = others.scatter(motion) / of_best(others.size);
     if (few()) noise = std::max(noise, 1.5 * own);
     else if (own > 4.5 * noise) noise = own;
     motion = others.parabola(motion, 4 * noise);
   }
+  return is_on(motion, noise);
+}
+
+/// The same, now that the outliers beside it are known, which may have hidden it.
+bool Outliers::belongs_still(std::size_t i) const {
+  const auto [begin, end] = around(i);
+  const bool beside = (i > begin && !at(i - 1)->kept) || (i + 1 < end && !at(i + 1)->kept);
+  const Judged& s = *at(i);
+  if (!beside) return true;
+  const Neighbours others(at(begin), at(end), s,
+                          [&](const Judged& of) { return &of != &s && of.kept; });
+  if (others.size < 4) return true;
+  const double noise = (few() ? least_scatter() : s.noise) / others.unit;
+  const Polynomial<3> motion = others.parabola();
+  return others.scatter(motion) > scatters * noise || is_on(motion, noise);
+}
+
+bool Outliers::is_on(const Polynomial<3>& motion, double noise) const {
   const auto [value, error] = motion.derivative(0, 0);
   return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);
 }
@@ -145,7 +169,7 @@ bool Outliers::belongs(std::size_t i, bool again) const {
 void Outliers::judge_before(std::size_t end) {
   for (; next_ < end; ++next_) {
     const Judged& s = samples_[next_ - first_];
-    judged_.push_back({s.t, s.kept && (few() || belongs(next_, true)) ? s.y : NAN});
+    judged_.push_back({s.t, s.kept && (few() || belongs_still(next_)) ? s.y : NAN});
   }
   for (; next_ > first_ + near_end; ++first_) samples_.pop_front();
 }
@@ -168,7 +192,7 @@ void Outliers::judge() {
                  least_scatter());
     // No reading is further from the motion than the root of the RSS, in standard errors.
     const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * s.noise;
-    s.kept = near_all || belongs(i, false);
+    s.kept = near_all || belongs(i);
     judge_before(i + 1 - std::min(i + 1, near / 2));
   }
 }

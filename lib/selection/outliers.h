@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "selection/polynomial.h"
 #include "signal/signal.h"
 
 namespace rolling {
@@ -38,8 +39,15 @@ class Outliers {
     bool kept = true;
     double noise = 0;  // of its neighbours
   };
+  struct Range {
+    std::size_t begin, end;
+  };
   void judge();
-  bool belongs(std::size_t i, bool again) const;
+  std::deque<Judged>::const_iterator at(std::size_t i) const;
+  Range around(std::size_t i) const;  // the neighbours of sample i, and the sample
+  bool belongs(std::size_t i) const;
+  bool belongs_still(std::size_t i) const;
+  bool is_on(const Polynomial<3>& motion, double noise) const;
   void judge_before(std::size_t end);
   double least_scatter() const;
   bool few() const;

@@ -24,8 +24,9 @@ class Polynomial {
   void add(std::array<double, P> row, double y) {
     for (std::size_t k = 0; k < P; ++k) {
       if (row[k] == 0) continue;
-      const double length = std::sqrt(r_[k][k] * r_[k][k] + row[k] * row[k]), c = r_[k][k] / length,
-                   s = row[k] / length;
+      const double length = std::sqrt(r_[k][k] * r_[k][k] + row[k] * row[k]);
+      const double c = r_[k][k] / length;
+      const double s = row[k] / length;
       r_[k][k] = length;
       for (std::size_t j = k + 1; j < P; ++j) turn(c, s, r_[k][j], row[j]);
       turn(c, s, z_[k], y);
@@ -61,7 +62,8 @@ class Polynomial {
       }
       for (std::size_t j = 0; j < k; ++j) w[k] -= r_[j][k] * w[j];
       w[k] /= r_[k][k];
-      value += w[k] * z_[k], square += w[k] * w[k];
+      value += w[k] * z_[k];
+      square += w[k] * w[k];
     }
     return {value, std::sqrt(square)};
   }
@@ -69,7 +71,8 @@ class Polynomial {
  private:
   static void turn(double c, double s, double& a, double& b) {
     const double old = a;
-    a = c * old + s * b, b = c * b - s * old;
+    a = c * old + s * b;
+    b = c * b - s * old;
   }
 
   std::array<std::array<double, P>, P> r_{};

@@ -16,7 +16,7 @@
 namespace rolling {
 namespace {
 
-/// The last place that was written of the readings, or an upper bound where grid_of() tells none.
+/// The last written place of the readings; an upper bound if grid_of() does not find it.
 double place_of(std::span<const double> readings) {
   const auto [least, most] = std::ranges::minmax(readings);
   return std::max(grid_of(readings), finest_grid * std::max(std::abs(least), std::abs(most)));
@@ -28,18 +28,22 @@ std::optional<double> way_by(std::span<const double> t, std::span<const double> 
                              std::size_t row) {
   std::vector<double> since_first(t.begin(), t.end());
   for (double& time : since_first) time -= t[0];
-  const double of_clock = std::numeric_limits<double>::epsilon() *
-                          (std::abs(t.front()) + std::abs(t.back())),
-               of_t = place_of(since_first) + of_clock, of_v = place_of(v);
-  double least = -INFINITY, most = -least, coarsest = 0;
+  const double of_clock =
+      std::numeric_limits<double>::epsilon() * (std::abs(t.front()) + std::abs(t.back()));
+  const double of_t = place_of(since_first) + of_clock;
+  const double of_v = place_of(v);
+  double least = -INFINITY;
+  double most = INFINITY;
+  double coarsest = 0;
   std::vector<double> steps;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-    const double step = t[i + 1] - t[i], speed = v[i + row],
-                 rounding = std::abs(speed) * of_t + step * of_v / 2;
+    const double step = t[i + 1] - t[i];
+    const double speed = v[i + row];
+    const double rounding = std::abs(speed) * of_t + step * of_v / 2;
     if (std::isnan(speed)) return {};
     steps.push_back(step);
     coarsest = std::max(coarsest, rounding);
-    least = std::max(least, speed * step - rounding),
+    least = std::max(least, speed * step - rounding);
     most = std::min(most, speed * step + rounding);
   }
   const double way = std::midpoint(least, most);
@@ -107,16 +111,20 @@ bool are_held(std::span<const double> readings) {
       continue;
     }
     const bool jump = step(i) > 2.5 * unit;
-    if (jump && after_jump) held += waiting, ++stretches;
+    if (jump && after_jump) {
+      held += waiting;
+      ++stretches;
+    }
     after_jump = jump;
     waiting = 0;
   }
   if (3 * held <= stretches) return false;
   // In each stretch one step is not 0. Chernoff's bound for so large a share of zeros by chance.
-  const double zero = std::min(unit / (2 * median(steps)), 0.5),
-               n = static_cast<double>(held + stretches), share = static_cast<double>(held) / n,
-               distance = share * std::log(share / zero) +
-                          (1 - share) * std::log((1 - share) / (1 - zero));
+  const double zero = std::min(unit / (2 * median(steps)), 0.5);
+  const auto n = static_cast<double>(held + stretches);
+  const double share = static_cast<double>(held) / n;
+  const double distance =
+      share * std::log(share / zero) + (1 - share) * std::log((1 - share) / (1 - zero));
   return share > zero && std::exp(-n * distance) <= 0.01;
 }
 

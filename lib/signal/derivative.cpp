@@ -17,7 +17,10 @@ std::span<const double> CentralDerivative::push(double t, double y) {
     if (count_ == 3) known_[known++] = slope_ - bend_ * step_;
     known_[known++] = slope_ + bend_ * step_;
   }
-  t_ = t, y_ = y, step_ = step, slope_ = slope;
+  t_ = t;
+  y_ = y;
+  step_ = step;
+  slope_ = slope;
   return {known_.data(), known};
 }
 
@@ -34,8 +37,8 @@ double VernierDerivative::value(const Windows& window) {
   require_slope(window.size());
   const std::size_t i = window.at(), last = window.end() - 1;
   const auto slope = [&](std::size_t k, double weight) {
-    const Sample &a = window.sample(std::max(i, window.begin() + k) - k),
-                 &b = window.sample(std::min(i + k, last));
+    const Sample& a = window.sample(std::max(i, window.begin() + k) - k);
+    const Sample& b = window.sample(std::min(i + k, last));
     return weight * (b.y - a.y) / (b.t - a.t);
   };
   return (slope(1, 3) + slope(2, 2) + slope(3, 1)) / 6;
@@ -50,7 +53,8 @@ double PascoDerivative::value(const Windows& window) {
     return before == 0 ? slopes.front() : slopes.back();
   }
   const auto rise = [&](std::size_t k) {
-    const Sample &a = window.sample(i - k), &b = window.sample(i + k);
+    const Sample& a = window.sample(i - k);
+    const Sample& b = window.sample(i + k);
     return Sample{b.t - a.t, b.y - a.y};
   };
   const Sample one = rise(1);

@@ -11,9 +11,12 @@ namespace rolling {
 LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> samples,
                                                    const Sample& here, std::size_t order) {
   const std::size_t n = samples.size();
-  const double reach = std::max(here.t - samples.front().t, samples.back().t - here.t),
-               scale = reach > 0 ? reach : 1;
-  u_.resize(n), rest_.resize(n), p_.assign(n, 1), before_.assign(n, 0);
+  const double reach = std::max(here.t - samples.front().t, samples.back().t - here.t);
+  const double scale = reach > 0 ? reach : 1;
+  u_.resize(n);
+  rest_.resize(n);
+  p_.assign(n, 1);
+  before_.assign(n, 0);
   for (std::size_t j = 0; j < n; ++j) {
     u_[j] = (samples[j].t - here.t) / scale;
     rest_[j] = samples[j].y - here.y;

@@ -43,7 +43,9 @@ double SplineDerivative::solve(double alpha) {
     const double s01 = -L1_[j] * s11 - L2_[j] * s12, s02 = -L1_[j] * s12 - L2_[j] * s22;
     const double s00 = 1 / D_[j] - L1_[j] * s01 - L2_[j] * s02;
     trace += q0_[j] * s00 + 2 * q1_[j] * s01 + 2 * q2_[j] * s02;
-    s22 = s11, s12 = s01, s11 = s00;
+    s22 = s11;
+    s12 = s01;
+    s11 = s00;
   }
   double square = 0;
   for (std::size_t i = 0; i < m + 2; ++i) square += Qg(i) * Qg(i);

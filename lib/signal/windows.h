@@ -138,10 +138,14 @@ class SortedWindow {
   void subtract(double y) { sorted_.erase(std::ranges::lower_bound(sorted_, y)); }
   /// The same as subtract(old) and add(y); the readings between them alone are moved.
   void exchange(double y, double old) {
-    const auto from = std::ranges::lower_bound(sorted_, old),
-               to = std::ranges::lower_bound(sorted_, y);
-    if (from < to) *std::move(from + 1, to, from) = y;
-    else std::move_backward(to, from, from + 1), *to = y;
+    const auto from = std::ranges::lower_bound(sorted_, old);
+    const auto to = std::ranges::lower_bound(sorted_, y);
+    if (from < to) {
+      *std::move(from + 1, to, from) = y;
+    } else {
+      std::move_backward(to, from, from + 1);
+      *to = y;
+    }
   }
   std::size_t size() const { return sorted_.size(); }
   double operator[](std::size_t rank) const { return sorted_[rank]; }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the joint between two motions of a run may lie: two polynomials, a roll and its stop, or a
+// roll and a hand that stops the body.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/quantity.h"
+#include "selection/pieces.h"
+#include "signal/windows.h"
+
+namespace rolling {
+
+/// The index at which a roll ends, and the RSS of the motion that ends it there.
+struct Ending {
+  std::size_t end;
+  double rss;
+};
+
+/// The joints of samples of this noise. Each RSS is in units of the variance of the noise.
+template <Quantity of>
+class Joints {
+  static constexpr std::size_t P = most_coefficients(of);
+  static constexpr bool positions = of == Quantity::x;
+
+ public:
+  Joints(std::span<const Sample> samples, double noise) : samples_(samples), noise_(noise) {}
+
+  /// The RSS of the samples [begin, end) as two polynomials of `order` and `order_after`
+  /// coefficients, for each number of samples that the first one may have.
+  std::vector<double> costs(std::size_t begin, std::size_t order, std::size_t order_after,
+                            std::size_t end) const;
+
+  /// From `joint`, at most `far` inwards (+1 or -1): the furthest joint within three standard
+  /// errors of the best.
+  static std::size_t inner(const std::vector<double>& cost, std::size_t joint, std::size_t far,
+                           int inwards);
+
+  /// The number of samples, of those from `from` to `to`, that agree with one another. As many as
+  /// half may be left out at the end: each sample that is left out costs twice the mean square of
+  /// all residuals, or 2 if that is larger.
+  std::size_t agreeing(std::size_t from, std::size_t to) const;
+
+  /// The end of a roll whose body comes to rest by itself, among the samples [begin, end), behind
+  /// the middle of `begin` and `roughly`: the earliest within three standard errors of the best.
+  ///
+  /// At the stop, s, the speed falls to 0 without a jump. Positions are y + sum c_k (s - t)^k,
+  /// k > 1, before s, and y from then on, but for the rounding that all readings of the rest share.
+  /// The sum has three powers, and so has that of speeds, from k = 1 on: with fewer, a law whose
+  /// speed falls like another power looks like a hand.
+  Ending before_stop(std::size_t begin, std::size_t roughly, std::size_t end) const;
+
+  /// The same of a roll that a hand ends: it takes the speed v to 0 as v (1 + cos(pi s/T))/2,
+  /// within a time T of no more than a quarter of the roll.
+  Ending before_hand(std::size_t begin, std::size_t roughly, std::size_t end) const;
+
+ private:
+  double rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end) const;
+  /// The roll up to the sample `joint`, and the hand from there on.
+  struct Held;
+
+  std::span<const Sample> samples_;
+  double noise_;
+};
+
+extern template class Joints<Quantity::x>;
+extern template class Joints<Quantity::v>;
+
+}  // namespace rolling

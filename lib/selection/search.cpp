@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "selection/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/quantity.h"
+#include "selection/joints.h"
+#include "selection/pieces.h"
+
+namespace rolling {
+namespace {
+
+/// Share of the largest speed below which a body may come to rest by itself.
+constexpr double slow = 0.15;
+
+/// Motions differ by 2.5 and by 5 standard errors if their RSS differ by these numbers.
+constexpr double rather = 6, five_sigma = 25;
+
+/// Pieces that are one roll, by their indices.
+struct Chain {
+  std::size_t first, last;
+  double duration = 0, fastest = 0, lost = 0;  ///< share of its speed that it loses
+};
+
+/// The rolls in samples of this noise.
+template <Quantity of>
+class Search {
+  static constexpr bool positions = of == Quantity::x;
+
+ public:
+  Search(std::span<const Sample> samples, double noise)
+      : samples_(samples), noise_(noise), joints_(samples, noise) {
+    const auto joints = best_partition<most_coefficients(of)>(samples, noise);
+    for (std::size_t i = 1; i < joints.size(); ++i)
+      pieces_.emplace_back(samples, joints[i - 1], joints[i], noise);
+    for (const auto& p : pieces_)
+      for (const double t : {p.from, p.middle(), p.to})
+        if (const auto v = p.v(t); !p.is_short())
+          fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
+  }
+
+  std::optional<FreeRoll> roll() const {
+    std::vector<Chain> chains = rolls();
+    if (chains.empty()) return {};
+    const auto rank = [](const Chain& c) { return std::pair(c.lost > 0.1, c.duration); };
+    std::ranges::sort(chains, std::greater(), rank);
+    const Chain& best = chains[0];
+    FreeRoll found = kept(best);
+    // A rest at the end of the run may be too short for a piece of its own.
+    if (found.how == FreeRoll::End::goes_on && found.kept.end < samples_.size())
+      found.how = FreeRoll::End::by_itself;
+    const auto may_be = [&](const Chain& c) {
+      return c.lost > 0.05 && (c.duration > 0.4 * best.duration ||
+                               (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
+    };
+    const auto other = std::find_if(chains.begin() + 1, chains.end(), may_be);
+    if (other != chains.end()) found.other = kept(*other).kept;
+    return found;
+  }
+
+ private:
+  static double sign(double a) { return a < 0 ? -1 : 1; }
+
+  std::vector<Chain> rolls() const {
+    std::vector<Chain> chains;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece<of>& p = pieces_[i];
+      const auto a = p.a(p.middle());
+      if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
+      if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
+      else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
+    }
+    for (Chain& c : chains) {
+      const Piece<of>& a = pieces_[c.first];
+      const Piece<of>& b = pieces_[c.last];
+      const double v0 = a.v(a.from).value;
+      const double v1 = b.v(b.to).value;
+      c.duration = b.to - a.from;
+      c.fastest = std::max(std::abs(v0), std::abs(v1));
+      c.lost = std::abs(v0 - v1) / c.fastest;
+    }
+    std::erase_if(chains, [&](const Chain& c) {
+      return c.fastest < 0.2 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
+    });
+    return chains;
+  }
+
+  /// Whether the motion is far above the noise: the noise alone makes one such piece in some
+  /// thousand.
+  bool stands_out(const Piece<of>& a, const Piece<of>& b) const {
+    if (!positions) return std::abs(a.v(a.from).value) > 5 * noise_;
+    const auto way = [&](const Piece<of>& in, double t) {
+      return std::abs(in.y(t).value - a.y(a.from).value);
+    };
+    return std::max({way(b, b.to), way(a, a.to), way(a, a.middle())}) > 12 * noise_;
+  }
+  /// Whether the body slows down, or turns and comes back.
+  bool is_roll(const Piece<of>& p) const {
+    const auto v0 = p.v(p.from);
+    const auto v1 = p.v(p.to);
+    const auto v = p.v(p.middle());
+    const auto a = p.a(p.middle());
+    if (!(std::abs(a.value) > 4 * a.error)) return false;
+    if (v0.value * v1.value < 0 && v0.is_known() && comes_back(p, sign(a.value)))
+      return v0.value * a.value < 0 && std::abs(v1.value) < 1.1 * std::abs(v0.value);
+    return v.value * a.value < 0 && v.is_known() && std::abs(v.value) > 0.03 * fastest_;
+  }
+  bool comes_back(const Piece<of>& p, double way) const {
+    const auto v = p.v(p.to);
+    if (!v.is_known()) return false;
+    if (!positions) return v.value * way > 0.15 * fastest_;
+    return v.value * way > 0.03 * fastest_ && stands_out(p, p);
+  }
+
+  /// Whether the motion of a goes on in b under one law, whatever lies between.
+  bool continues(const Piece<of>& a, const Piece<of>& b) const {
+    if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
+    const double t = std::midpoint(a.to, b.from);
+    const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
+    const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
+    const auto va = a.v(t);
+    const auto vb = b.v(t);
+    const auto ma = a.a(a.middle());
+    const auto mb = b.a(b.middle());
+    const double ratio = mb.value / ma.value;
+    const double way = sign(ma.value);
+    // On a slight slope the way back is steady: D is as large as the slope allows.
+    const bool turns = va.value * way > -0.25 * fastest_ && comes_back(b, way);
+    if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.error)) return false;
+    if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
+    if (turns) return ratio < 1.2;  // D is against the motion on both ways
+    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    if (va.value * way < 0 && !stops && !is_roll(b)) return false;
+    const auto ea = a.a(a.to);
+    const auto eb = b.a(b.from);
+    const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
+    const double most = ratio > 1 ? 0.2 : 0.4;
+    if (error(ea, eb) < 0.15 * larger)
+      return ratio > 0.2 && ratio < 5 && jump(ea, eb) < std::max(most * larger, 3 * error(ea, eb));
+    return ratio > 0.55 && ratio < 1.5;
+  }
+
+  FreeRoll::End end_of(const Chain& c) const {
+    const Piece<of>& last = pieces_[c.last];
+    if (last.end == samples_.size()) return FreeRoll::End::goes_on;
+    const auto v = last.v(last.to);
+    const auto back = last.v(last.middle());
+    if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
+      return FreeRoll::End::is_ended;
+    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest) ? FreeRoll::End::by_itself
+                                                                       : FreeRoll::End::is_ended;
+  }
+
+  /// The samples that belong to a roll whatever their noise.
+  FreeRoll kept(const Chain& c) const {
+    Stretch s{begin_of(c), pieces_[c.last].end};
+    const FreeRoll::End how = set_end(c, s);
+    // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
+    // several positions knows of a row behind the joint.
+    const std::size_t spare = std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25);
+    if (s.begin > 0) s.begin += spare;
+    if (s.end < samples_.size()) s.end -= spare;
+    s.end = amid_equal(s);
+    return {s, how, samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t};
+  }
+
+  /// The first sample behind the push, wherever the joint lies.
+  std::size_t begin_of(const Chain& c) const {
+    const Piece<of>& first = pieces_[c.first];
+    if (first.begin == 0) return 0;
+    const Piece<of>& before = pieces_[c.first - 1];
+    const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);
+    std::size_t begin = before.begin + joints_.inner(cost, before.size(), first.size() / 3, 1);
+    begin = std::max(begin, first.end - joints_.agreeing(first.end - 1, first.begin));
+    // A speed is made of positions on either side of its time, also of one before the joint.
+    const double t = samples_[begin].t;
+    const double joint = positions ? std::midpoint(samples_[begin - 1].t, t) : t;
+    const double seen = joint + std::max(unseen(first, t), unseen_push(before, first));
+    while (samples_[begin].t < std::min(seen, first.to)) ++begin;
+    return begin;
+  }
+
+  /// Sets the end of the samples `s` before the stop, the hand, ..., and says which it is.
+  FreeRoll::End set_end(const Chain& c, Stretch& s) const {
+    const Piece<of>& last = pieces_[c.last];
+    FreeRoll::End how = end_of(c);
+    double sudden = INFINITY;  // RSS of an end with a jump
+    if (s.end < samples_.size()) {
+      const Piece<of>& next = pieces_[c.last + 1];
+      const auto cost = joints_.costs(last.begin, last.order, next.order, next.end);
+      sudden = *std::min_element(cost.begin(), cost.end());
+      s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
+      s.end = std::min(s.end, last.begin + joints_.agreeing(last.begin, last.end - 1));
+    }
+    if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest)
+      how = slow_end(c, how, sudden, s);
+    if (how == FreeRoll::End::is_ended) {
+      const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
+      while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
+    }
+    return how;
+  }
+
+  /// The end of the stretch, moved back to the middle of equal readings: a step of rounded readings
+  /// shows where the body is, and its rounding error is therefore no chance. Amid equal readings
+  /// the errors cancel.
+  std::size_t amid_equal(const Stretch& s) const {
+    const auto equal = [&](std::size_t i) { return samples_[i].y == samples_[i - 1].y; };
+    std::size_t to = s.end;
+    while (to < samples_.size() && equal(to)) ++to;
+    for (std::size_t end = s.end; end > s.begin;) {
+      std::size_t from = end - 1;
+      while (from > s.begin && equal(from)) --from;
+      const std::size_t middle = (from + to + 1) / 2;
+      if (middle <= s.end) return middle;
+      end = to = from;
+    }
+    return s.end;
+  }
+
+  /// How a roll ends that is slow at its end, and where. `sudden` is the RSS of an end at which the
+  /// speed jumps.
+  FreeRoll::End slow_end(const Chain& c, FreeRoll::End how, double sudden, Stretch& s) const {
+    const Piece<of>& last = pieces_[c.last];
+    const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
+    const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
+    if (rss > sudden + five_sigma) how = FreeRoll::End::is_ended;
+    else s.end = stop;
+    // A hand that slows a slow body by hardly more than D may seem to be the last piece, or of it.
+    const std::size_t before = std::max(c.first + 1, c.last) - 1;
+    const std::size_t begin = std::max(s.begin, pieces_[before].begin);
+    double any = five_sigma;  // RSS of what agrees with the readings as well as the pieces do
+    for (const Piece<of>& p : std::span(pieces_).subspan(before))
+      if (p.end <= end) any += p.rss();
+    const double by_itself = joints_.before_stop(begin, last.end, end).rss;
+    const auto [hand, by_hand] = joints_.before_hand(begin, last.end, end);
+    if (by_hand > any || by_hand > by_itself - rather) return how;
+    s.end = std::min(s.end, hand);
+    return by_hand > by_itself - five_sigma ? how : FreeRoll::End::is_ended;
+  }
+
+  /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
+  /// back, within T deviates from the sudden change by v T/8 at most.
+  double unseen(const Piece<of>& p, double t) const {
+    const double time = positions ? 12 * noise_ / std::abs(p.v(t).value) : 0;
+    return std::min(time, p.duration() / 4);
+  }
+
+  /// The same for the end of a push of the duration T, whose force fades: its speed is
+  /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
+  double unseen_push(const Piece<of>& push, const Piece<of>& roll) const {
+    if (!push.a(push.middle()).is_known()) return 0;
+    const double v = std::abs(roll.v(roll.from).value);
+    const double T = push.duration();
+    const double share = 2 * noise_ / v;
+    const double s = positions ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
+    return std::min({s, T / 2, roll.duration() / 8});
+  }
+
+  std::span<const Sample> samples_;
+  double noise_, fastest_ = 0;
+  Joints<of> joints_;
+  std::vector<Piece<of>> pieces_;
+};
+
+}  // namespace
+
+std::optional<FreeRoll> search_roll(std::span<const Sample> samples, bool positions, double noise) {
+  if (positions) return Search<Quantity::x>(samples, noise).roll();
+  return Search<Quantity::v>(samples, noise).roll();
+}
+
+}  // namespace rolling
