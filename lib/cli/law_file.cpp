@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "base/enumeration.h"
 #include "base/error.h"
 
 namespace rolling {
@@ -18,15 +20,32 @@ std::string bare(std::string formula) {
   return formula;
 }
 
-/// The law with the most coefficients of those whose coefficients are all columns.
-const LawForm* law_of_columns(const Reader& in) {
-  const LawForm* found = nullptr;
-  for (const LawForm& form : laws())
-    if (std::ranges::all_of(form.coefficients,
-                            [&](const auto& c) { return in.find(c.name).has_value(); }) &&
-        (!found || form.coefficients.size() > found->coefficients.size()))
-      found = &form;
-  return found;
+/// True for a column that a person reads as the coefficient of a law: one of the table, or d3. A p
+/// beside chi2 is a probability.
+bool is_coefficient(const Reader& in, const std::string& name) {
+  if (name == "p" && in.find("chi2")) return false;
+  if (name.starts_with('d') && is_whole(std::string_view(name).substr(1))) return true;
+  return std::ranges::any_of(laws(), [&](const LawForm& form) {
+    return std::ranges::any_of(form.coefficients, [&](const auto& c) { return name == c.name; });
+  });
+}
+
+/// The law whose coefficients are those of the file, no more and no less; none for a table of v and
+/// D. Throws InputError for coefficients that no law has together.
+const LawForm* law_of_columns(const Reader& in, const std::string& file) {
+  std::set<std::string> written;
+  for (const Column& column : in.columns())
+    if (is_coefficient(in, column.name)) written.insert(column.name);
+  for (const LawForm& form : laws()) {
+    std::set<std::string> names;
+    for (const LawForm::Coefficient& c : form.coefficients) names.insert(c.name);
+    if (names == written) return &form;
+  }
+  const bool is_row = written.contains("a") || written.contains("d0");
+  if (is_row && !(in.find("v") && in.find("D")))
+    fail<InputError>("{}: no law has these coefficients and no others: {}", shown(file),
+                     enumeration({written.begin(), written.end()}));
+  return nullptr;
 }
 
 /// The row of fitpower in a file.
@@ -35,6 +54,10 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
   const bool power = &form == &laws().front();
   if (!power)
     tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
+  if (with_errors)
+    tool.refuse({"coefficient", "exponent"}, "does not go with the uncertainties of a row");
+  const bool replaced = tool.on_command_line("coefficient") || tool.on_command_line("exponent");
+  if (replaced) tool.need({"coefficient", "exponent"});
   std::erase_if(numbers, [&](const RowNumber& number) {
     return !in.find(number.name) || tool.on_command_line(number.name);
   });
@@ -59,14 +82,11 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
     for (std::size_t i = 0; i < j; ++i)
       row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
   }
-  const bool a_told = !tool.on_command_line("coefficient"),
-             b_told = !tool.on_command_line("exponent");
-  if (power && a_told && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
-  if (power && !a_told && !b_told && numbers.empty())
+  if (power && !replaced && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
+  if (replaced && numbers.empty())
     fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
   if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-  if (!a_told) written[0] = given.a;
-  if (!b_told) written[1] = given.b;
+  if (replaced) written = {given.a, given.b};
   row.law = Law::as_written(form, written);
   return row;
 }
@@ -134,7 +154,7 @@ LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowN
     return {options.power};
   }
   Reader& in = tool.read_file(file, {"v", "D"});
-  if (const LawForm* form = law_of_columns(in))
+  if (const LawForm* form = law_of_columns(in, file))
     return read_row(tool, in, *form, options.power, numbers, with_errors);
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))

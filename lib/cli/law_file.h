@@ -59,10 +59,10 @@ struct LawOfFile {
 /// The law that the options tell: a v^b if there is no file, which then needs a and b; else a table
 /// of v and D, or a row of fitpower, a file with the columns of the coefficients of a law, which
 /// sets these numbers too. `-` is standard input. What the command line gives takes precedence: a
-/// and b, and the numbers; these keep their values where the row has no such column. Columns with
-/// units are converted to SI. `with_errors`: a row needs its uncertainties. Throws Error for any
-/// other file, for more than one row, for a row that sets nothing, and for another law than a v^b
-/// beside -a or -b.
+/// and b, which replace the law together, and the numbers; these keep their values where the row
+/// has no such column. Columns with units are converted to SI. `with_errors`: a row needs its
+/// uncertainties. Throws Error for any other file, for more than one row, for a row that sets
+/// nothing, and for another law than a v^b beside -a or -b.
 LawOfFile read_law(Tool&, const LawOptions&, const std::vector<RowNumber>&,
                    bool with_errors = false);
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "unit/catch.h"
@@ -64,8 +65,12 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
   const Given all = law_of(row);
   CHECK((all.status == 0 && all.said.empty() && !all.file.law.has_points()));
   CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.v0 == 0.5 && all.slope == 0.001));
-  const Given some = law_of(row, {"-a", "2e-3", "--v0", "1", "--slope", "0"});
-  CHECK((some.law.a == 2e-3 && some.law.b == 0.25 && some.v0 == 1 && some.slope == 0));
+  const Given some = law_of(row, {"-a", "2e-3", "-b", "0.5", "--v0", "1"});
+  CHECK((some.law.a == 2e-3 && some.law.b == 0.5 && some.v0 == 1 && some.slope == 0.001));
+  for (const char* half : {"-a", "-b"}) {
+    const Given one = law_of(row, {half, "1"});
+    CHECK((one.status == 2 && one.said.find("neither given nor in a scene") != std::string::npos));
+  }
   const Given none = law_of(row, {"-a", "2e-3", "-b", "0", "--v0", "1", "--slope", "0"});
   CHECK(none.said == "tool: --law tells nothing that is not on the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
@@ -109,6 +114,31 @@ TEST_CASE("law file: a table of v and D", "[cli]") {
   const Given given = law_of("# v[cm/s]\tD[mm]\n100\t2\n0\t1\n");
   REQUIRE(given.file.law.has_points());
   CHECK((given.file.law(1) == 2e-3 && given.file.law.highest() == 1));
+}
+
+// Every set of up to four of the coefficients: a law of the table, or refused.
+TEST_CASE("law file: a row is a law as a whole or not at all", "[cli]") {
+  const std::vector<std::string> names{"a", "b", "d0", "d1", "d2", "d3", "p", "w"};
+  const std::set<std::string> known{"a b", "d0", "d0 d1", "d0 d1 d2", "d0 d2", "a b d0", "d0 p w"};
+  std::size_t accepted = 0;
+  for (std::size_t set = 1; set < 256; ++set) {
+    std::string header;
+    std::string row;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if ((set >> i & 1) == 0) continue;
+      add_item(header, names[i], " ");
+      add_item(row, "1", " ");
+    }
+    CAPTURE(header);
+    const Given given = law_of(header + '\n' + row + '\n');
+    CHECK((given.status == 0) == known.contains(header));
+    accepted += given.status == 0;
+  }
+  CHECK(accepted == known.size());
+  CHECK(law_of("a b chi2 dof p\n1 0 1 2 0.5\n").status == 0);
+  const std::string row = "a sigma_a b sigma_b corr\n1 0.1 0 0.1 0\n";
+  CHECK(law_of(row, {"-a", "1", "-b", "1"}, true).status == 2);
+  CHECK(law_of(row, {}, true).status == 0);
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {
