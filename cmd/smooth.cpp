@@ -19,6 +19,13 @@ std::string default_column(const Reader& in, std::size_t t) {
   return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
 }
 
+/// A roll is one of positions or speeds.
+void require_motion(const SelectionOptions& select, const std::string& name) {
+  if (select.needs_run() && name != "x" && name != "v")
+    fail("{} needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x",
+         select.rolls ? "--rolls" : "--coast", shown(name));
+}
+
 /// The `##` lines.
 std::string history(const std::string& column, const SelectionOptions& selected,
                     const SignalOptions& smoothed) {
@@ -28,53 +35,65 @@ std::string history(const std::string& column, const SelectionOptions& selected,
   if (std::isfinite(selected.to)) add(fmt::format("t to {}", selected.to));
   if (selected.outliers > 0) add(fmt::format("{} outliers {}", column, selected.outliers));
   if (selected.coast) add(column + " coast");
+  if (selected.rolls) add(column + " rolls");
   const Width& width = smoothed.width;
   if (width.seconds > 0 || width.samples > 1)  // a window of one row is no filter
     add(column + ' ' + describe(smoothed));
   return lines;
 }
 
-/// Tells what --coast keeps: of one run in a line, of more in a line for all.
+/// How a roll ends.
+std::string end_of(const FreeRoll& roll) {
+  if (roll.how == FreeRoll::End::by_itself) return "the body rolled to rest";
+  if (roll.how == FreeRoll::End::goes_on) return "the run ends before the roll does";
+  return fmt::format("something stopped the body at {:.12g} s", roll.after);
+}
+
+/// Tells which rolls are kept: one roll in a line, more of them in a line for all.
 class Told {
  public:
-  explicit Told(Tool& tool) : tool_(tool) {}
+  Told(Tool& tool, bool all_rolls)
+      : tool_(tool), keeps_(all_rolls ? "--rolls keeps" : "--coast keeps"), all_rolls_(all_rolls) {}
 
   /// Adds a run of so many rows.
   void add(const Selection& selection, const std::string& run, std::size_t rows) {
     for (const double t : selection.outliers())
       if (++outliers_ <= 10) add_item(times_, fmt::format("{:.12g}", t));
-    if (!selection.roll()) return;
-    const auto& [kept, how, after, other] = *selection.roll();
-    const std::size_t count = kept.end - kept.begin;
-    ++runs_, kept_ += count, rows_ += rows;
-    ++ends_[static_cast<std::size_t>(how)];
-    one_ =
-        fmt::format("--coast keeps {:.12g} to {:.12g} s ({} of {} rows); the roll {}", kept.from,
-                    kept.to, count, rows,
-                    how == FreeRoll::End::by_itself ? "ends by itself"
-                    : how == FreeRoll::End::goes_on ? "goes on to the end of the run"
-                                                    : fmt::format("is ended at {:.12g} s", after));
-    if (other)
-      tool_.warn(run,
-                 fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
-                             "{:.12g} s: choose with --from and --to",
-                             other->from, other->to, kept.from, kept.to));
+    ++runs_;
+    rows_ += rows;
+    for (const FreeRoll& roll : selection.rolls()) {
+      const Stretch& kept = roll.kept;
+      const std::size_t count = kept.end - kept.begin;
+      ++rolls_;
+      kept_ += count;
+      ++ends_[static_cast<std::size_t>(roll.how)];
+      one_ = fmt::format("{} {:.12g} to {:.12g} s ({} of {} rows); {}", keeps_, kept.from, kept.to,
+                         count, rows, end_of(roll));
+      if (roll.other && !all_rolls_)
+        tool_.warn(run,
+                   fmt::format("the free roll may also be {:.12g} to {:.12g} s, and not {:.12g} to "
+                               "{:.12g} s: choose with --from and --to, or keep all with --rolls",
+                               roll.other->from, roll.other->to, kept.from, kept.to));
+    }
   }
   void say() const {
     if (outliers_ > 0)
       tool_.warn(fmt::format("{} left out: at {}{} s", counted(outliers_, "outlier"), times_,
                              outliers_ > 10 ? ", ..." : ""));
-    if (runs_ == 1) tool_.warn(one_);
-    if (runs_ > 1)
+    if (rolls_ == 1) tool_.warn(one_);
+    if (rolls_ > 1)
       tool_.warn(
-          fmt::format("--coast keeps {} of {} rows of {} runs; rolls that end by themselves: "
-                      "{}, that are ended: {}, that go on to the end of their runs: {}",
-                      kept_, rows_, runs_, ends_[0], ends_[1], ends_[2]));
+          fmt::format("{} {} of {} rows in {} of {}: {} rolled to rest, something "
+                      "stopped {}, the run ends before {}",
+                      keeps_, kept_, rows_, counted(rolls_, "roll"), counted(runs_, "run"),
+                      ends_[0], ends_[1], ends_[2]));
   }
 
  private:
   Tool& tool_;
-  std::size_t outliers_ = 0, runs_ = 0, kept_ = 0, rows_ = 0;
+  std::string keeps_;
+  bool all_rolls_;
+  std::size_t outliers_ = 0, runs_ = 0, rolls_ = 0, kept_ = 0, rows_ = 0;
   std::array<std::size_t, 3> ends_{};
   std::string times_, one_;
 };
@@ -85,6 +104,7 @@ void add_options(Tool& tool, SelectionOptions& select) {
       "leave out readings that are this many times the scatter off their neighbours' motion");
   tool.flag("--coast", select.coast,
             "keep the free roll only: without push, hold, hand, brake and rest");
+  tool.flag("--rolls", select.rolls, "keep every free roll, each as a run of its own");
   tool.number("--from", select.from, any_number, "leave out the rows before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the rows after this time [s]");
 }
@@ -118,6 +138,7 @@ int main(int argc, char** argv) {
     const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method"),
                all = select.all(), selects = !all && !smooths;  // and changes no number
     if (selects) options.width.samples = 1;
+    if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need("t");
@@ -125,21 +146,31 @@ int main(int argc, char** argv) {
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
-    if (select.coast && name != "x" && name != "v")
-      fail("--coast needs x or v, not {}: say --use v=COLUMN, or --use x=COLUMN -c x", shown(name));
+    require_motion(select, name);
     Filter filter(in, tool.out, history(name, select, options));
     filter.replace(y);
     double first = INFINITY, last = -INFINITY;
     filter.say_why_none([&] {
       return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
     });
-    Told selected(tool);
+    Told selected(tool, select.rolls);
     while (filter.next_run()) {
       Selection selection(select);
-      const auto smoother = make_signal(options);
+      auto smoother = make_signal(options);
       std::size_t row = 0;
+      std::size_t roll = 0;
+      // A roll is a run of its own: its smoothing begins anew.
+      const auto begin_roll = [&](double time) {
+        const auto& rolls = selection.rolls();
+        if (!select.rolls || roll == rolls.size() || time < rolls[roll].kept.from) return;
+        filter.put(smoother->finish());
+        smoother = make_signal(options);
+        ++roll;
+        filter.split(row, fmt::format("{} roll {} of {}", in.run_name(), roll, rolls.size()));
+      };
       const auto take = [&](std::span<const Sample> samples) {
         for (const Sample& s : samples) {
+          if (!std::isnan(s.y)) begin_roll(s.t);
           if (std::isnan(s.y)) filter.drop(row);
           else if (selects) filter.put(s.y);
           else filter.put(smoother->push(s.t, s.y));
@@ -147,7 +178,8 @@ int main(int argc, char** argv) {
         }
       };
       while (filter.next()) {
-        first = std::min(first, filter[t]), last = std::max(last, filter[t]);
+        first = std::min(first, filter[t]);
+        last = std::max(last, filter[t]);
         if (all) filter.put(smoother->push(filter[t], filter[y]));
         else take(selection.push(filter[t], filter[y]));
       }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "base/error.h"
@@ -33,8 +34,14 @@ std::vector<Sample> means(std::span<const Sample> run, std::size_t size, bool po
   return blocks;
 }
 
-/// The roll in the means of so many samples each.
-FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t size) {
+/// As many means are searched at once, or readings.
+constexpr std::size_t at_once = 1000;
+
+std::size_t size_of_means(std::size_t n) { return (n + at_once - 1) / at_once; }
+
+/// The rolls in the means of equal numbers of samples.
+std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions) {
+  const std::size_t size = size_of_means(run.size());
   constexpr double off = 6;  // standard errors
   std::vector<double> y;     // of the first sample of each mean
   for (std::size_t i = 0; i < run.size(); i += size) y.push_back(run[i].y);
@@ -63,8 +70,8 @@ FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t 
       take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
   const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
-  const auto found = search_roll(samples, positions, noise);
-  if (!found) {
+  std::vector<FreeRoll> found = search_rolls(samples, positions, noise);
+  if (found.empty()) {
     const auto [low, high] = std::ranges::minmax(y);
     fail(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
@@ -72,40 +79,70 @@ FreeRoll roll_in_means(std::span<const Sample> run, bool positions, std::size_t 
         "--to)",
         low, high, std::ldexp(noise, units.y));
   }
-  FreeRoll roll = *found;
   const auto of_run = [&](const Stretch& s) {
     const std::size_t begin = index[s.begin];
     const std::size_t end = s.end == samples.size() ? run.size() : index[s.end - 1] + size;
     return Stretch{begin, end, run[begin].t, run[end - 1].t};
   };
-  roll.kept = of_run(roll.kept);
-  if (roll.other) roll.other = of_run(*roll.other);
-  roll.after = std::ldexp(roll.after, units.t) + run[0].t;
-  return roll;
+  for (FreeRoll& roll : found) {
+    roll.kept = of_run(roll.kept);
+    if (roll.other) roll.other = of_run(*roll.other);
+    roll.after = std::ldexp(roll.after, units.t) + run[0].t;
+  }
+  return found;
+}
+
+/// The samples that two stretches share, or less than 0.
+std::ptrdiff_t shared(const Stretch& a, const Stretch& b) {
+  return static_cast<std::ptrdiff_t>(std::min(a.end, b.end)) -
+         static_cast<std::ptrdiff_t>(std::max(a.begin, b.begin));
+}
+
+/// The same roll, sought again in the samples around it, whose means are finer.
+void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
+  std::size_t n = run.size();
+  while (size_of_means(n) > 1) {
+    // As much on either side as the roll is long shows its beginning and its end. If that is more
+    // than half of the run, a second search would see little more.
+    const std::size_t around = std::max(roll.kept.end - roll.kept.begin, 20 * size_of_means(n));
+    const std::size_t from = roll.kept.begin - std::min(around, roll.kept.begin);
+    const std::size_t to = std::min(roll.kept.end + around, run.size());
+    if (to - from > n / 2) return;
+    n = to - from;
+    std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions);
+    for (FreeRoll& of : found) {
+      of.kept.begin += from;
+      of.kept.end += from;
+    }
+    const auto in_common = [&](const FreeRoll& of) { return shared(of.kept, roll.kept); };
+    const FreeRoll& same = *std::ranges::max_element(found, {}, in_common);
+    if (in_common(same) <= 0) return;
+    roll.kept = same.kept;
+    roll.after = same.after;
+    roll.how = same.how;
+    if (same.how == FreeRoll::End::goes_on && to < run.size()) roll.how = FreeRoll::End::is_ended;
+  }
+}
+
+void require_enough(std::size_t n) {
+  if (n < 10) fail("a run of {} rows is too short to find its free roll", n);
 }
 
 }  // namespace
 
 FreeRoll free_roll(std::span<const Sample> run, bool positions) {
-  constexpr std::size_t at_once = 1000;
-  const std::size_t n = run.size();
-  const std::size_t size = (n + at_once - 1) / at_once;
-  if (n < 10) fail("a run of {} rows is too short to find its free roll", n);
-  FreeRoll roll = roll_in_means(run, positions, size);
-  if (size == 1) return roll;
-  // As much on either side as the roll is long shows its beginning and its end. If that is more
-  // than half of the run, a second search would see little more.
-  const std::size_t around = std::max(roll.kept.end - roll.kept.begin, 20 * size);
-  const std::size_t from = roll.kept.begin - std::min(around, roll.kept.begin);
-  const std::size_t to = std::min(roll.kept.end + around, n);
-  if (to - from > n / 2) return roll;
-  const auto other = roll.other;
-  roll = free_roll(run.subspan(from, to - from), positions);
-  roll.kept.begin += from;
-  roll.kept.end += from;
-  if (roll.how == FreeRoll::End::goes_on && to < n) roll.how = FreeRoll::End::is_ended;
-  roll.other = other;
-  return roll;
+  require_enough(run.size());
+  FreeRoll longest = rolls_in_means(run, positions).front();
+  refine(run, positions, longest);
+  return longest;
+}
+
+std::vector<FreeRoll> free_rolls(std::span<const Sample> run, bool positions) {
+  require_enough(run.size());
+  std::vector<FreeRoll> rolls = rolls_in_means(run, positions);
+  for (FreeRoll& roll : rolls) refine(run, positions, roll);
+  std::ranges::sort(rolls, {}, [](const FreeRoll& roll) { return roll.kept.begin; });
+  return rolls;
 }
 
 }  // namespace rolling

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "signal/windows.h"
 
@@ -50,5 +51,13 @@ struct FreeRoll {
 /// A run of more than 1000 samples is reduced to means of equal numbers of samples; if the roll is
 /// short, the search is repeated around it. O(n). Throws Error if no roll is found.
 FreeRoll free_roll(std::span<const Sample> run, bool positions);
+
+/// All free rolls of such a run, in the order of their times; free_roll() is the longest.
+///
+/// The free rolls of one body have one law: at the same speed they slow down alike. A stretch is a
+/// roll if its mean deceleration is within a factor of 1.5 of that which the others show at its
+/// speeds. The law is the one that most of the rolling time follows. A hand, a brake, and a body
+/// that is carried back slow down otherwise.
+std::vector<FreeRoll> free_rolls(std::span<const Sample> run, bool positions);
 
 }  // namespace rolling

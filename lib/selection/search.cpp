@@ -43,29 +43,93 @@ class Search {
           fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
   }
 
-  std::optional<FreeRoll> roll() const {
-    std::vector<Chain> chains = rolls();
-    if (chains.empty()) return {};
+  /// The rolls that slow down alike, the longest first; it knows another stretch that may be meant.
+  std::vector<FreeRoll> rolls() const {
+    std::vector<Chain> all = chains();
     const auto rank = [](const Chain& c) { return std::pair(c.lost > 0.1, c.duration); };
-    std::ranges::sort(chains, std::greater(), rank);
-    const Chain& best = chains[0];
-    FreeRoll found = kept(best);
-    // A rest at the end of the run may be too short for a piece of its own.
-    if (found.how == FreeRoll::End::goes_on && found.kept.end < samples_.size())
-      found.how = FreeRoll::End::by_itself;
+    std::ranges::sort(all, std::greater(), rank);
+    const std::vector<Chain> alike = of_one_law(all);
+    std::vector<FreeRoll> found;
+    for (const Chain& c : alike) found.push_back(kept(c));
+    if (found.empty()) return found;
+    const Chain& best = alike[0];
     const auto may_be = [&](const Chain& c) {
-      return c.lost > 0.05 && (c.duration > 0.4 * best.duration ||
-                               (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
+      return c.first != best.first && c.lost > 0.05 &&
+             (c.duration > 0.4 * best.duration ||
+              (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
     };
-    const auto other = std::find_if(chains.begin() + 1, chains.end(), may_be);
-    if (other != chains.end()) found.other = kept(*other).kept;
+    const auto other = std::ranges::find_if(all, may_be);
+    if (other != all.end()) found[0].other = kept(*other).kept;
     return found;
   }
 
  private:
+  /// A speed, and the deceleration at it.
+  struct Slowing {
+    double v, deceleration;
+  };
+  /// What a roll shows of its law, ordered by the speeds.
+  std::vector<Slowing> law_of(const Chain& c) const {
+    std::vector<Slowing> law;
+    for (std::size_t i = c.first; i <= c.last; ++i)
+      for (const double part : {1.0 / 6, 0.5, 5.0 / 6}) {
+        const Piece<of>& p = pieces_[i];
+        const double t = std::lerp(p.from, p.to, part);
+        const double v = p.v(t).value;
+        if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v)});
+      }
+    std::ranges::sort(law, {}, &Slowing::v);
+    return law;
+  }
+  /// The deceleration at a speed; beyond the speeds that were seen, that at the nearest.
+  static double at(const std::vector<Slowing>& law, double v) {
+    const auto above = std::ranges::lower_bound(law, v, {}, &Slowing::v);
+    if (above == law.begin()) return above->deceleration;
+    const Slowing& below = *(above - 1);
+    if (above == law.end()) return below.deceleration;
+    const double part = (v - below.v) / (above->v - below.v);
+    return std::lerp(below.deceleration, above->deceleration, part);
+  }
+  /// Whether a body that rolls under `law` slows down like `other`, within a factor of 1.5.
+  static bool are_alike(const std::vector<Slowing>& law, const std::vector<Slowing>& other) {
+    double found = 0;
+    double expected = 0;
+    for (const Slowing& s : other) {
+      found += s.deceleration;
+      expected += at(law, s.v);
+    }
+    return found > expected / 1.5 && found < 1.5 * expected;
+  }
+  /// The chains that slow down alike at the same speed. A body has one law; a hand, a brake or a
+  /// body that is carried back follows another. The law is that under which the body rolled for the
+  /// longest time in all.
+  std::vector<Chain> of_one_law(const std::vector<Chain>& all) const {
+    std::vector<std::vector<Slowing>> laws;
+    for (const Chain& c : all) laws.push_back(law_of(c));
+    std::vector<Chain> best;
+    std::pair<bool, double> most{false, -1};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      std::vector<Chain> alike;
+      double duration = 0;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (k == i || are_alike(laws[i], laws[k])) {
+          alike.push_back(all[k]);
+          duration += all[k].duration;
+        }
+      const std::pair worth(all[i].lost > 0.1, duration);
+      if (worth <= most) continue;
+      most = worth;
+      best = alike;
+    }
+    double fastest = 0;
+    for (const Chain& c : best) fastest = std::max(fastest, c.fastest);
+    std::erase_if(best, [&](const Chain& c) { return c.fastest < 0.2 * fastest; });
+    return best;
+  }
+
   static double sign(double a) { return a < 0 ? -1 : 1; }
 
-  std::vector<Chain> rolls() const {
+  std::vector<Chain> chains() const {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece<of>& p = pieces_[i];
@@ -84,7 +148,7 @@ class Search {
       c.lost = std::abs(v0 - v1) / c.fastest;
     }
     std::erase_if(chains, [&](const Chain& c) {
-      return c.fastest < 0.2 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
+      return c.fastest < 0.05 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
     });
     return chains;
   }
@@ -158,13 +222,15 @@ class Search {
   /// The samples that belong to a roll whatever their noise.
   FreeRoll kept(const Chain& c) const {
     Stretch s{begin_of(c), pieces_[c.last].end};
-    const FreeRoll::End how = set_end(c, s);
+    FreeRoll::End how = set_end(c, s);
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint.
     const std::size_t spare = std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25);
     if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
+    // A rest at the end of the run may be too short for a piece of its own.
+    if (how == FreeRoll::End::goes_on && s.end < samples_.size()) how = FreeRoll::End::by_itself;
     return {s, how, samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t};
   }
 
@@ -269,9 +335,9 @@ class Search {
 
 }  // namespace
 
-std::optional<FreeRoll> search_roll(std::span<const Sample> samples, bool positions, double noise) {
-  if (positions) return Search<Quantity::x>(samples, noise).roll();
-  return Search<Quantity::v>(samples, noise).roll();
+std::vector<FreeRoll> search_rolls(std::span<const Sample> samples, bool positions, double noise) {
+  if (positions) return Search<Quantity::x>(samples, noise).rolls();
+  return Search<Quantity::v>(samples, noise).rolls();
 }
 
 }  // namespace rolling

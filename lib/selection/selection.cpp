@@ -15,25 +15,29 @@ void Selection::take(std::span<const Sample> tested) {
 }
 
 std::span<const Sample> Selection::push(double t, double y) {
-  if (!options_.coast) run_.clear();
+  if (!options_.needs_run()) run_.clear();
   const bool within = t >= options_.from && t <= options_.to;
   if (test_ && t > options_.to) take(test_->finish());
   if (test_ && within) take(test_->push(t, y));
   else run_.push_back({t, within ? y : NAN});
-  return options_.coast ? std::span<const Sample>() : run_;
+  return options_.needs_run() ? std::span<const Sample>() : run_;
 }
 
 std::span<const Sample> Selection::finish() {
-  if (!options_.coast) run_.clear();
+  if (!options_.needs_run()) run_.clear();
   if (test_) take(test_->finish());
-  if (!options_.coast) return run_;
+  if (!options_.needs_run()) return run_;
   std::vector<Sample> run;
   for (const Sample& s : run_)
     if (!std::isnan(s.y)) run.push_back(s);
   if (run.empty()) return run_;
-  roll_ = free_roll(run, options_.positions);
-  for (auto& [t, y] : run_)
-    if (t < roll_->kept.from || t > roll_->kept.to) y = NAN;
+  if (options_.rolls) rolls_ = free_rolls(run, options_.positions);
+  else rolls_ = {free_roll(run, options_.positions)};
+  auto roll = rolls_.begin();
+  for (auto& [t, y] : run_) {
+    while (roll != rolls_.end() && t > roll->kept.to) ++roll;
+    if (roll == rolls_.end() || t < roll->kept.from) y = NAN;
+  }
   return run_;
 }
 

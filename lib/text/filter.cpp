@@ -79,6 +79,10 @@ void Filter::drop(std::size_t i) {
   write_rows();
 }
 
+void Filter::split(std::size_t i, const std::string& name) {
+  splits_.emplace(run_begins_ + i, "## run " + name);
+}
+
 /// Writes the head of a run before its first row.
 void Filter::write_head() {
   if (names_.empty()) return;
@@ -86,6 +90,23 @@ void Filter::write_head() {
   write_comments();
   out_.text(history_);
   out_.text(std::exchange(names_, {})), out_.end_line();
+}
+
+/// Prepares the head of a part of a run: the history of the run, the name of the part.
+void Filter::begin_part() {
+  if (splits_.empty() || splits_.front().first > done_) return;
+  if (!names_.empty()) {
+    names_of_run_ = names_;
+    history_of_run_.clear();
+    for (const std::string& comment : comments_)
+      if (is_history(comment) && !comment.starts_with("## run "))
+        history_of_run_.push_back(comment);
+  }
+  names_ = names_of_run_;
+  std::erase_if(comments_, is_history);
+  comments_.push_back(splits_.front().second);
+  comments_.insert(comments_.end(), history_of_run_.begin(), history_of_run_.end());
+  while (!splits_.empty() && splits_.front().first <= done_) splits_.pop();
 }
 
 void Filter::write_comments() {
@@ -127,6 +148,7 @@ void Filter::write_rows() {
       ++done_;
     } else {
       if (numbers.size() < each) break;
+      begin_part();
       write_head();
       write_row(text, line.place, numbers.first(each));
       numbers = numbers.subspan(each);

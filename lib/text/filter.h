@@ -14,6 +14,7 @@
 #include <queue>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "text/bytes.h"
@@ -47,6 +48,9 @@ class Filter {
   bool next_run();
   bool next();
   double operator[](std::size_t slot) const { return in_[slot]; }
+  /// The row with the index i in this run (from 0) begins a run of its own in the output, of this
+  /// name. The rows before it have been dropped or wait for numbers; it has not been written.
+  void split(std::size_t i, const std::string& name);
   /// Gives the next number to the oldest row that lacks one. Throws Error if it is not finite.
   void put(double value) {
     require_finite(value);
@@ -75,6 +79,7 @@ class Filter {
   void hold(std::string_view text, Kind);
   void take_comments(const std::vector<std::string>&);
   void write_rows();
+  void begin_part();
   void write_head();
   void write_comments();
   void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
@@ -89,13 +94,16 @@ class Filter {
   Bytes texts_;                               // of these, one after the other
   std::size_t first_ = 0, front_ = 0;         // front_: where the text of first_ begins
   std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
-  std::vector<double> numbers_;               // of these rows, in order
-  std::size_t enough_;                        // put() writes rows at this count of numbers
+  std::queue<std::pair<std::size_t, std::string>> splits_;  // rows that begin a run, its name
+  std::vector<double> numbers_;                             // of these rows, in order
+  std::size_t enough_;  // put() writes rows at this count of numbers
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
   // The head of a run none of whose rows has been written.
   std::vector<std::string> comments_;
   std::string names_;
+  std::vector<std::string> history_of_run_;  // what its parts share
+  std::string names_of_run_;
   bool any_row_ = false;
   std::function<std::string()> why_none_;
   bool writing_ = false;  // write_rows() is at work; stays true if it has failed

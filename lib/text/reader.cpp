@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -35,10 +36,12 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
 // Runs: which one is read, its name, and its head.
 
 /// True if the present run is to be read: by the number in its header or at the end of its name,
-/// which is the same behind a tool, else by its place.
+/// which is the same behind a tool (2 of `NAME roll 2 of 6`), else by its place.
 bool Reader::asked_for() {
   std::string number = layout().label;
   if (!is_number(number)) number = run_is_named() ? run_name() : "";
+  if (number.find(" roll ") != std::string::npos)
+    number.erase(std::min(number.size(), number.rfind(" of ")));
   number.erase(0, number.rfind(' ') + 1);
   const auto is_label = [](const Layout::Run& run) { return is_number(run.label); };
   if (!is_whole(number)) {

@@ -223,3 +223,34 @@ TEST_CASE("free_roll: a long run keeps what a short one keeps", "[signal]") {
   CHECK(std::abs(longer[again.begin].t - fine.run[kept.begin].t) < 0.15);
   CHECK(std::abs(longer[again.end - 1].t - fine.run[kept.end - 1].t) < 2);
 }
+
+// A class pushes its body to and fro: a push of 0.4 s to 0.5 m/s, a roll that slows by 0.1 m/s^2
+// for 2 s, a hand that stops the body within 0.2 s, rest for 0.6 s, the same backwards, ...
+TEST_CASE("free_rolls: every roll of a record is found, and no hand", "[signal]") {
+  constexpr double period = 3.2;
+  constexpr int times = 6;
+  int found = 0;
+  int wrong = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Series e = noise(25 * 20, seed);
+    std::vector<Sample> run;
+    for (const double of_noise : e) {
+      const double t = 0.04 * static_cast<double>(run.size());
+      const double past = std::fmod(t, period);
+      double v = 0;
+      if (past < 0.4) v = 0.5 * std::pow(std::sin(3.14159265358979 / 0.8 * past), 2);
+      else if (past < 2.4) v = 0.5 - 0.1 * (past - 0.4);
+      else if (past < 2.6) v = 0.3 * (2.6 - past) / 0.2;
+      const bool back = static_cast<int>(t / period) % 2 == 1;
+      run.push_back({t, (back ? -v : v) + 0.004 * of_noise});
+    }
+    for (const FreeRoll& roll : free_rolls(run, false)) {
+      const double from = std::fmod(roll.kept.from, period);
+      const bool right = from > 0.3 && from + roll.kept.to - roll.kept.from < 2.5;
+      found += right && roll.kept.to - roll.kept.from > 1.2;
+      wrong += !right;
+    }
+  }
+  CHECK(100 * found >= 95 * times * 20);
+  CHECK(100 * wrong <= times * 20);
+}

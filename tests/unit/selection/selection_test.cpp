@@ -110,8 +110,8 @@ std::pair<std::vector<bool>, std::string> selected(const std::vector<Sample>& ru
   for (const Sample& s : run) take(selection.push(s.t, s.y));
   take(selection.finish());
   std::string told;
-  if (const auto& roll = selection.roll())
-    told = std::to_string(static_cast<int>(roll->how)) + (roll->other ? ", or another" : "");
+  for (const FreeRoll& roll : selection.rolls())
+    told = std::to_string(static_cast<int>(roll.how)) + (roll.other ? ", or another" : "");
   return {kept, told};
 }
 
