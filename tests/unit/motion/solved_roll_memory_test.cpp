@@ -335,3 +335,39 @@ TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff", "[rollin
     CHECK(motion.evaluations() < 500000);  // rk8pd: 6e6
   }
 }
+
+// Near the stop v falls like a power of the time that is left. Where v^2 is about length c D(v),
+// the bulge no longer follows: v^(2-b) ~ length. From there on the rest takes a time ~ v^(1-b) that
+// differs from that without memory, so that its excess is length^((1-b)/(2-b)) times a constant.
+TEST_CASE("MemoryRoll: the rest tends to that without memory, at the rate of its equations",
+          "[rolling]") {
+  for (const double b : {0.0, 0.215, 0.5}) {
+    const PowerLaw law{1.87e-3, b};
+    const double limit = closed_roll(cylinder, law, 0.5, 0)->stop_time();
+    const auto rate = [&](double length) { return std::pow(length, (1 - b) / (2 - b)); };
+    const auto stop = [&](double length) {
+      MemoryRoll motion = roll({length}, Geometry::approximate, law);
+      const double result = motion.stop_time();
+      motion.seek(result);
+      INFO("b " << b << " length " << length);
+      CHECK(motion.evaluations() < 100'000);
+      return result;
+    };
+    const double excess = (stop(1e-10) - limit) / rate(1e-10);
+    for (double length = 1e-11; length > 1e-19; length *= 0.1) {
+      INFO("b " << b << " length " << length << " constant " << excess);
+      CHECK(std::abs(stop(length) - (limit + excess * rate(length))) < 1e-8 * limit);
+    }
+  }
+}
+
+TEST_CASE("MemoryRoll: the solver of stiff lengths agrees with the other where both work",
+          "[rolling]") {
+  for (const double b : {0.0, 0.215, 0.5})
+    for (const double length : {1e-3, 1e-4, 1e-5, 1e-6}) {
+      const Scene of = scene({length}, Geometry::exact, {1.87e-3, b});
+      INFO("b " << b << " length " << length);
+      CHECK(std::abs(roll(of, Stepper::bsimp).stop_time() / roll(of, Stepper::rk8pd).stop_time() -
+                     1) < 1e-8);
+    }
+}
