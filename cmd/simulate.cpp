@@ -45,27 +45,34 @@ void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
-/// Prints the run times and the errors of the methods on this scene to standard error.
+/// Prints the errors and the run times of the methods on this scene: a row each. A solver that
+/// fails has a row without numbers, and its message.
 void report(Tool& tool, const Scene& scene, double rtol, double end) {
   const Reference right = reference(scene, 200, end);
   const Method best = best_method(scene);
-  tool.say(fmt::format("{:8} {:>7} {:>9} {:>10} {:>11} {:>11}", "method", "rtol", "max|dv|/v0",
-                       "dt*/t*", "evaluations", "ns/sample"));
+  Output& out = tool.out;
+  out.names({{"method"}, {"rtol"}, {"v_error"}, {"stop_error"}, {"evaluations"}, {"time", "s"}});
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
     const Measured m = measure([&] { return start(scene, method, tolerance); }, right);
-    const std::string text = fmt::format(
-        "{:8} {:>7}", name, method.kind == Method::solver ? fmt::format("{:g}", tolerance) : "-");
-    if (!m.failure.empty()) return tool.say(text + " failed: " + m.failure);
-    tool.say(fmt::format("{} {:10.2g} {:10.2g} {:11} {:11.4g}", text, m.v_error, m.stop_error,
-                         m.evaluations, 1e9 * m.seconds));
+    out.cell(name);
+    if (method.kind == Method::solver) out.cell(tolerance);
+    else out.cell("");
+    if (!m.failure.empty()) {
+      for (int i = 0; i < 4; ++i) out.cell("");
+      tool.say(fmt::format("{}: {}", name, m.failure));
+    } else {
+      out.cell(m.v_error);
+      out.cell(m.stop_error);
+      out.cell(static_cast<double>(m.evaluations));
+      out.cell(m.seconds);
+    }
+    out.end_line();
   };
   for (const auto& [name, method] : methods)
     if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper))
       row(name, method, rtol);
   for (const char* name : {"rkf45", "rk8pd", "rk4imp", "bsimp", "msbdf"})
     for (const double tolerance : {1e-6, rtol}) row(name, methods.at(name), tolerance);
-  tool.say(best.kind == Method::solver ? "errors are against the first at rtol 1e-13"
-                                       : "errors are against the first");
 }
 
 /// What the options and the scene describe: the roll and how it is solved.
@@ -96,6 +103,8 @@ struct Task {
 
 /// Refuses every option that has no effect beside another, or without one.
 void check_options(const Tool& tool, const Task& task) {
+  if (task.report)
+    tool.refuse({"dt", "at", "columns", "sensor"}, "does not go with --report, without a motion");
   if (tool.on_command_line("sensor"))
     tool.refuse({"dt", "at", "columns", "x0", "t0"},
                 "does not go with --sensor, whose rows come at --rate, with its own columns, "
@@ -145,7 +154,7 @@ void add_options(Tool& tool, Task& task) {
               {"from 1e-12 to 0.1", [](double x) { return x >= 1e-12 && x <= 0.1; }},
               "tolerance of a solver, relative to the change in a step (1e-10)");
   tool.flag("--report", task.report,
-            "on standard error, error against run time of the methods on this scene");
+            "print error against run time of the methods on this scene, not the motion");
 }
 
 void add_options(Tool& tool, SonarOptions& sonar) {
@@ -256,8 +265,9 @@ int main(int argc, char** argv) {
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
-    if (task.report) report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
-    if (sensor) {
+    if (task.report) {
+      report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
+    } else if (sensor) {
       sonar.seed = seed;
       if (!to_the_stop) sonar.until = until;
       write_run(tool.out, *motion, sonar);

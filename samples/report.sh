@@ -271,15 +271,11 @@ on one machine: the ratios count. <code>simulate --scene samples/CR.toml --repor
 methods on many problems, as figures: <code>make work-precision</code>, some minutes, and then
 <code>make report</code>.</p>
 HTML
-  # The lines "simulate: METHOD RTOL ..." as table1.sh sets its rows.
-  { echo methods; simulate --scene CR.toml --report 2>&1 >/dev/null; } |
-    awk 'NR == 1 { print }
-      NF == 8 {
-        for (i = 7; i <= 8; i++) if ($i ~ /^[0-9]/) $i = sprintf($i < 10 ? "%.1f" : "%.0f", $i)
-        sub(/^simulate: */, ""); gsub(/ +/, "  "); sub(/\|dv\|/, "|Δv|")
-        sub(/scatter/, "scatter [ns]")
-        print "  " $0
-      }' >"$scratch/methods"
+  # The rows as table1.sh sets its own.
+  { echo methods; simulate --scene CR.toml --report --digits 2; } |
+    awk -F '\t' 'NR == 1 { print; next }
+      { sub(/^# /, ""); if ($2 == "") $2 = "-"
+        print "  " $1 "  " $2 "  " $3 "  " $4 "  " $5 "  " $6 }' >"$scratch/methods"
   table methods "$scratch/methods"
 fi
 cat <<'HTML'
