@@ -174,6 +174,7 @@ check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
 	LONG=1 tests/faults/memory.sh
 	LONG=1 tests/house/deb.sh
+	PATH="$$PWD/bin:$$PATH" LONG=1 tests/house/portable.sh
 	LONG=1 tests/house/reproducible.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What a user meets does without GNU: the same comes out with every awk and every sh that is here;
-# no script and no rule has what macOS and BSD lack.
+# no script and no rule has what macOS and BSD lack. The scripts run with LONG=1: make check-long.
 set -u
 export LC_ALL=C
 unset CDPATH MAKEFLAGS MAKELEVEL
@@ -30,6 +30,8 @@ for name in $(grep -ohE '\branges::[a-z_]+' -r lib cmd tests/unit tests/pipeline
   grep -qE "\b(auto|bool|using|Permuted) ${name#*::}\b|\(${name#*::}\)" tests/libcxx/ranges.h ||
     complain "tests/libcxx/ranges.h lacks $name"
 done
+
+[ -n "${LONG-}" ] || exit $wrong
 
 # Every script, in a copy whose scripts for sh run in the shell $1, a path: what they make goes into
 # the folder $2. It takes the awk that is on the PATH.
