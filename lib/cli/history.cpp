@@ -92,7 +92,7 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
   if (!derivative && words[0] != "smooth") return true;
   believe(words.size() > 2);
   const std::string& method = words[2];
-  const bool coast = method == "coast";
+  const bool coast = method == "coast" || method == "rolls";
   const bool from = method == "from";
   const bool to = method == "to";
   const bool outliers = method == "outliers";
