@@ -50,10 +50,13 @@ law() {  # HEADER ROW
 
 make_scratch
 cat -- "${1:--}" >"$scratch/rows"
-header=$(grep '^# ' "$scratch/rows" | tail -n 1) || wrong 'no row of fitpower'
-rows=0
+header='' rows=0
 while IFS= read -r row; do
-  case $row in '' | '#'* | $'\t'*) continue ;; esac  # a run that fitpower could not fit is blank
+  case $row in
+    '# '*) header=$row; continue ;;  # of the rows below it
+    '' | '#'* | $'\t'*) continue ;;  # a run that fitpower could not fit is blank
+  esac
+  [ "$header" ] || wrong 'no row of fitpower'
   [ $((rows += 1)) = 1 ] || echo
   law "$header" "$row"
 done <"$scratch/rows"

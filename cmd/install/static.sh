@@ -6,6 +6,7 @@ set -eu
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
+case ${1-} in '' | *[!A-Za-z0-9_]*) echo "static: '${1-}' is no architecture" >&2 && exit 2 ;; esac
 name=rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$1
 folder=build/static/$1
 rm -rf "$folder"

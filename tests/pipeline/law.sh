@@ -34,6 +34,14 @@ printf '# d0[m]\tsigma_d0[m]\td2[s^2/m]\tsigma_d2[s^2/m]\tcorr_d0_d2\n1e-3\t2e-5
         want = i == 2 ? D : D * exp((i % 2 ? -1 : 1) * (i < 5 ? 1 : 1.96) * s / D)
         if (($i / want - 1)^2 > 1e-10) { print "d0 + d2 v^2 at " $1 ": " $i " for " want; bad = 1 } } }
     END { exit bad || rows != 20 }' || wrong=1
+# Rows under several headers, each under its own: the curves of both files, one behind the other. And
+# the lower limit is the lower one where D < 0.
+printf '# d0[m]\tsigma_d0[m]\td2[s^2/m]\tsigma_d2[s^2/m]\tcorr_d0_d2\n-1e-3\t2e-5\t4e-4\t1e-5\t0\n' >"$scratch/other"
+{ "$law" -t 0.4 -n 3 "$scratch/row"; echo; "$law" -t 0.4 -n 3 "$scratch/other"; } >"$scratch/each"
+cat "$scratch/row" "$scratch/other" | "$law" -t 0.4 -n 3 | cmp - "$scratch/each" ||
+  complain 'two headers: another law than that of each file'
+"$law" -t 0.4 -n 3 "$scratch/other" | awk '!/^#/ { n++; if (!($5 < $3 && $3 < $2 && $2 < $4 && $4 < $6)) exit 1 }
+  END { exit n != 3 }' || complain 'the limits of a D below 0 are not in order'
 "$law" </dev/null 2>"$scratch/said" && complain 'law.sh: no row passes'
 grep -q 'no row' "$scratch/said" || complain "law.sh says: $(cat "$scratch/said")"
 echo '1 2' | "$law" 2>/dev/null && complain 'law.sh: no names pass'
