@@ -172,6 +172,7 @@ short = $(if $(SHORT),$1,$2)
 # The long form of the tests of numbers, memory and packages.
 check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
+	LONG=1 build/unit
 	LONG=1 tests/faults/memory.sh
 	LONG=1 tests/house/deb.sh
 	PATH="$$PWD/bin:$$PATH" LONG=1 tests/house/portable.sh

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "motion/roll.h"
 #include "unit/catch.h"
+#include "unit/many.h"
 #include "unit/fit/simulated.h"
 
 using namespace rolling;
@@ -21,7 +22,8 @@ struct Scene {
 
 }  // namespace
 
-// Of 128 numbers of each kind, each beyond 1.96 of its errors in 1 of 20: rarely more than 15.
+// Each number is beyond 1.96 of its errors in 1 of 20: of 160 numbers of each kind more than 18 are
+// in .04 %, of 32 more than 6 in .09 %.
 TEST_CASE("turning run: both ways determine the slope, and a and b, towards falling x too",
           "[fit]") {
   const Scene scenes[] = {{"ball", 0.4, 0.0127, 5e-5, 0.1, 0.02, 6.2},
@@ -32,10 +34,11 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
                           {"cylinder, long way back", 0.5, 0.04, 1.87e-3, 0.215, 0.02, 16},
                           {"cart, beyond its start", 0.05, 0.02, 2e-4, 0.3, 0.03, 6},
                           {"cylinder, 1 mm/s back", 0.5, 0.04, 1.87e-3, 0.215, 0.01, 5.4}};
+  const unsigned seeds = of_many(10);
   int off_a = 0, off_b = 0, off_slope = 0;
   for (const Scene& scene : scenes)
     for (const Route route : {Route::position, Route::velocity})
-      for (unsigned seed = 1; seed <= 8; ++seed) {
+      for (unsigned seed = 1; seed <= seeds; ++seed) {
         simulated::Noise noise(seed);
         Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, Geometry::approximate,
                    PowerLaw{scene.a, scene.b}, 0.5);
@@ -57,9 +60,10 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
         off_slope += std::abs(r.slope - way * scene.slope) > 1.96 * r.sigma_slope;
       }
-  CHECK(off_a <= 15);
-  CHECK(off_b <= 15);
-  CHECK(off_slope <= 15);
+  const int most = seeds == 10 ? 18 : 6;
+  CHECK(off_a <= most);
+  CHECK(off_b <= most);
+  CHECK(off_slope <= most);
 }
 
 TEST_CASE("turning run: without a slope it is refused, and told what it needs", "[fit]") {

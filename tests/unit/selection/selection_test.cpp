@@ -6,6 +6,7 @@
 #include <string>
 
 #include "unit/catch.h"
+#include "unit/many.h"
 #include "unit/signal/through.h"
 
 using namespace rolling;
@@ -127,7 +128,7 @@ TEST_CASE("selection: units, origins and the direction of x do not matter", "[si
   for (const bool coast : {false, true})
     for (const bool positions : {false, true})
       for (const double size : {1e-4, 3e-4, 1e-3, 2e-3})
-        for (unsigned seed = 1; seed <= 12; ++seed) {
+        for (unsigned seed = 1; seed <= of_many(15); ++seed) {
           INFO((coast ? "coast, " : "outliers, ")
                << (positions ? "x, " : "v, ") << "noise " << size << ", seed " << seed);
           SelectionOptions options;
