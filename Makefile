@@ -39,6 +39,9 @@ ifneq ($(system),Darwin)
 override LDFLAGS  += -Wl,--as-needed
 endif
 
+# The target is replaced if what a command prints is new.
+if_new = $1 >$@.new; if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
 source := $(wildcard lib/*/*.cpp)
 tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 object  = $(patsubst %.cpp,build/%.o,$1)
@@ -54,6 +57,15 @@ bin/%: build/cmd/%.o build/lib.a
 build/lib.a: $(call object,$(source))
 	rm -f $@ && $(AR) rcs $@ $^
 
+# A checkout has its commit in the version.
+commit ?= $(if $(wildcard .git),$(addprefix +,$(shell \
+            git describe --always --dirty=.modified --exclude='*' --abbrev=8 2>/dev/null)))
+build/commit: $(if $(SHORT)$(filter install,$(MAKECMDGOALS)),,always)
+	@mkdir -p $(@D)
+	@$(call if_new,printf '%s\n' '$(commit)')
+build/lib/base/version.o: build/commit
+build/lib/base/version.o: override CPPFLAGS += -DROLLING_COMMIT='"$(commit)"'
+
 # CLI11 runs once, and at -O2 it takes as long to compile as five other sources.
 build/lib/cli/tool_options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 
@@ -66,8 +78,7 @@ build/%.o: %.cpp build/flags
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS)
 build/flags: $(if $(SHORT)$(filter install,$(MAKECMDGOALS)),,always)
 	@mkdir -p $(@D)
-	@printf '%s\n' '$(subst ','\'',$(flags))' >$@.new; \
-	  if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+	@$(call if_new,printf '%s\n' '$(subst ','\'',$(flags))')
 .PHONY: always
 
 # The headers that most sources include are parsed once, which saves a third of the time of a build.
@@ -171,7 +182,7 @@ of_debian = $(shell DEB_BUILD_MAINT_OPTIONS='hardening=+all $(pathless)' \
               DEB_CXXFLAGS_MAINT_STRIP=-g dpkg-buildflags --get $1)
 deb: all
 	@$(call copy,build/debian)
-	$(MAKE) -C build/debian all $(foreach f,CPPFLAGS CXXFLAGS LDFLAGS,$f='$(call of_debian,$f)')
+	$(MAKE) -C build/debian all commit='$(commit)' $(foreach f,CPPFLAGS CXXFLAGS LDFLAGS,$f='$(call of_debian,$f)')
 	@TOOLS=build/debian/bin cmd/install/deb.sh
 
 clean:

@@ -287,7 +287,7 @@ echo "<div class=\"wide\"><pre>$(sed 's/&/\&amp;/g; s/</\&lt;/g' coverage.txt)</
 cat <<HTML
 <h2>How this page was made</h2>
 <p><code>make report</code> ran $(simulate --version |
-  sed 's/^simulate (\(.*\)) \(.*\)/\1 \2/'): six small tools,
+  sed 's/^simulate (\([a-z]*\)) /\1 /'): six small tools,
 <code>smooth</code>, <code>differentiate</code>, <code>shift-from-accel</code>,
 <code>fitpower</code>, <code>simulate</code> and <code>energy-ledger</code>, which read and write
 plain columns and are joined by pipes. The pipeline of each figure is the script

@@ -16,7 +16,7 @@ done
 prefix=${PROGRAM_PREFIX-}
 folder=build/deb
 tree=$folder/debian/rolling
-version=$(bin/smooth --version | awk '{ print $NF }')
+version=$(bin/smooth --version | cut -d ' ' -f 3)
 architecture=$(dpkg --print-architecture)
 # git refuses where there is no repository, and in one that belongs to another user.
 of_commit() { git log -1 --format="$1" 2>/dev/null; }

@@ -151,8 +151,12 @@ class Tool {
   /// Throws an OptionError, "--NAME why", for the first of these options (long names) that is on
   /// the command line. For options without effect beside the other ones.
   void refuse(std::initializer_list<const char*> options, std::string_view why) const;
+  /// True if the tool has an option with this long name.
+  bool has(const std::string& option) const;
   /// True if the option with this long name has a value from the command line or from the scene.
   bool given(const std::string& option) const;
+  /// The same for the option of this number of the body.
+  bool given(double Body::*number) const;
   /// True if it is on the command line.
   bool on_command_line(const std::string& option) const {
     return given(option) && !in_scene_.contains(option);

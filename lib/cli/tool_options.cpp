@@ -9,13 +9,13 @@
 #include <sstream>
 #include <utility>
 
+#include "base/version.h"
 #include "text/lines.h"
 
 namespace rolling {
 
 namespace {
 
-constexpr std::string_view version = "1.0.0";
 constexpr std::size_t help_column = 30;
 
 /// The keys of a scene. A tool ignores those that it does not need.
@@ -32,6 +32,27 @@ std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
   std::istringstream scene(text);
   return CLI::ConfigTOML().from_config(scene);
 }
+
+/// "mass" of "-m,--mass".
+std::string long_name(std::string_view names) {
+  return std::string(names.substr(names.find("--") + 2));
+}
+
+/// The options of the body. Their long names are keys of a scene.
+struct BodyOption {
+  const char* names;
+  double Body::*value;
+  double Body::*sigma;
+  Domain domain;
+  const char* help;
+};
+constexpr BodyOption body_options[] = {
+    {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
+    {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]"},
+    {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative, "shape factor K of J = K m R^2"},
+    {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)"},
+    {"--slope", &Body::slope, &Body::sigma_slope, any_number,
+     "rise of the mat in metres per metre of growing x (0)"}};
 
 /// An explanation in lines that fit beside the names of the options.
 std::string wrapped(std::string words) {
@@ -117,20 +138,7 @@ void Tool::text(const std::string& names, std::string& value, const std::string&
 
 void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
   body = {not_given, not_given, not_given};
-  static constexpr struct {
-    const char* names;
-    double Body::*value;
-    double Body::*sigma;
-    Domain domain;
-    const char* help;
-  } all[] = {{"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
-             {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]"},
-             {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative,
-              "shape factor K of J = K m R^2"},
-             {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)"},
-             {"--slope", &Body::slope, &Body::sigma_slope, any_number,
-              "rise of the mat in metres per metre of growing x (0)"}};
-  for (const auto& [names, value, sigma, domain, help] : all)
+  for (const auto& [names, value, sigma, domain, help] : body_options)
     if (std::ranges::find(numbers, value) != numbers.end())
       number(names, body.*value, domain, help, sigma ? &(body.*sigma) : nullptr);
 }
@@ -138,6 +146,12 @@ void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
 void Tool::scene() {
   text("--scene", scene_file_, "FILE",
        "TOML file with the long names of a scene's options; the command line wins");
+}
+
+bool Tool::given(double Body::*number) const {
+  for (const BodyOption& option : body_options)
+    if (option.value == number) return given(long_name(option.names));
+  return false;
 }
 
 std::string Tool::parse(int argc, const char* const* argv) {
@@ -148,7 +162,7 @@ std::string Tool::parse(int argc, const char* const* argv) {
     app_->name(name_)->footer("In full: man " + name_ + ". A tutorial: man rolling.");
     return app_->help();
   } catch (const CLI::CallForVersion&) {
-    return fmt::format("{} (rolling) {}\n", name_, version);
+    return fmt::format("{} (rolling) {} (GSL {})\n", name_, version(), version_of_gsl());
   } catch (const CLI::ExtrasError&) {
     fail("no such option or operand: {} (see --help)", shown(app_->remaining().front()));
   } catch (const CLI::ParseError& error) {
@@ -171,6 +185,10 @@ bool Tool::take_scene() {
       fail("{}: {}", scene_file_, error.what());
     }
   return scene_file_ == "-";
+}
+
+bool Tool::has(const std::string& option) const {
+  return app_->get_option_no_throw("--" + option) != nullptr;
 }
 
 bool Tool::given(const std::string& option) const {

@@ -37,7 +37,7 @@ files() { (cd "$1" && find . ! -type d | grep -v installed-files | sed 's/\.gz$/
 diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright)$') ||
   complain "its files are not those of make install"
 for tool in "$scratch"/tree/usr/bin/*; do
-  "$tool" --version | grep -q " $version$" || complain "$tool does not run"
+  "$tool" --version | grep -qF " $version " || complain "$tool does not run"
 done
 (cd "$scratch/tree" && dpkg-deb --info "$OLDPWD/$package" md5sums | md5sum --quiet -c) ||
   complain "its md5sums"

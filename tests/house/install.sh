@@ -36,7 +36,7 @@ for prefix in '' roll-; do
 
   for source in cmd/*.cpp; do
     plain=$(basename "$source" .cpp) tool=$prefix$(basename "$source" .cpp)
-    [ "$("$root/bin/$tool" --version)" = "$tool (rolling) $(bin/smooth --version | cut -d ' ' -f 3)" ] || complain "$tool --version does not name it"
+    [ "$("$root/bin/$tool" --version)" = "$tool $(bin/smooth --version | cut -d ' ' -f 2-)" ] || complain "$tool --version does not name it"
     "$root/bin/$tool" --help | grep -q "^Usage: $tool " || complain "$tool --help does not name it"
     [ "$("$root/bin/$tool" --no-such-option 2>&1 | cut -d : -f 1)" = "$tool" ] ||
       complain "$tool does not name itself in a message"
@@ -168,6 +168,7 @@ for prefix in 'r&d-' 'a/b' '-x' 'a b' '$(touch hit)' "'"; do
 done
 if [ -e "$scratch/none" ] || [ -e hit ]; then complain "is refused too late"; fi
 version=$(bin/smooth --version | cut -d " " -f 3)
+version=${version%+*}  # without the commit
 { grep -qF "version = {$version}" samples/rolling.bib && grep -qxF ".It $version" man/rolling.7; } ||
   { echo "samples/rolling.bib or rolling(7) names another version" && wrong=1; }
 exit $wrong
