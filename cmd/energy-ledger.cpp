@@ -69,11 +69,10 @@ constexpr std::string_view of_momenta[] = {"p_tr", "L_trH", "L_trN"};
 
 /// What the options and the scene describe.
 struct Task {
-  Body body{};
-  Geometry geometry{};
-  LawOfFile law = {};
-  bool uses_law = false;      ///< instead of the column D
-  bool law_of_scene = false;  ///< it uses the law because the first run has no column D
+  ShiftOf given{};              ///< the body and the geometry of the options
+  std::vector<LawOfFile> laws;  ///< with their bodies; without a law that of the options
+  bool uses_law = false;        ///< instead of the column D
+  bool law_of_scene = false;    ///< it uses the law because the first run has no column D
   bool summary = false;
   bool momenta = false;          ///< they are balanced too
   double tolerance = not_given;  ///< NaN without --check
@@ -96,10 +95,21 @@ void check(Tool& tool, const std::string& run, const Balance& balance, double to
     tool.object(run, fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
 }
 
-/// Balances the runs of `rows`, which are the reader or a filter behind it: of_row(now, balance) is
-/// called for each row, of_run(balance) at the end of each run that has rows. Returns the exit
-/// status: 2 if a closure is asked for and a run has none.
-int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of_row,
+/// The body and the geometry of a run whose D is a column: its `##` lines have the geometry. Where
+/// they have other numbers than are given, a line says so.
+ShiftOf contact_of_shifts(Tool& tool, const Reader& in, ShiftOf contact) {
+  std::string others = other_body(history_of(in.history(), {}).shift_of, contact.body);
+  if (const auto geometry = geometry_of_shifts(in.history()))
+    take_geometry(tool, *geometry, contact.geometry, others);
+  if (!others.empty()) tool.warn(in.run_name(), "D was computed with " + others);
+  return contact;
+}
+
+/// Balances the runs of `rows`, which are the reader or a filter behind it: begin(law) is called
+/// before the rows of a run, of_row(now, balance, law) for each row, of_run(balance) at the
+/// end of each run that has rows. Returns the exit status: 2 if a closure is asked for and a run
+/// has none.
+int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& begin, auto&& of_row,
                  auto&& of_run) {
   std::size_t beyond = 0;
   bool tests_nothing = false;
@@ -110,20 +120,20 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
           "or give the runs one by one",
           in.run_name());
-    if (!task.uses_law) {
-      tests_nothing |= shifts_of_speeds(in.history());
-      const auto others = other_body(history_of(in.history(), {}).shift_of, task.body);
-      if (!others.empty()) tool.warn(in.run_name(), "D was computed with " + others);
-    }
-    Balance balance(task.body, task.momenta);
+    const LawOfFile& law = law_of(task.laws, in.run_name());
+    const auto [body, geometry] =
+        task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
+    if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
+    begin(law);
+    Balance balance(body, task.momenta);
     while (rows.next()) {
       const double v = in[task.v];
-      if (task.uses_law) task.law.law.check_speed(v);
-      const double D = task.uses_law ? task.law.law(v) : in[task.D];
-      const Ledger now(task.body, task.geometry, v, D);
+      if (task.uses_law) law.law.check_speed(v);
+      const double D = task.uses_law ? law.law(v) : in[task.D];
+      const Ledger now(body, geometry, v, D);
       balance.push(in[task.t], now);
-      beyond += std::abs(D) > task.body.R;
-      of_row(now, balance);
+      beyond += std::abs(D) > body.R;
+      of_row(now, balance, law);
     }
     if (balance.energy.empty()) continue;
     of_run(balance);
@@ -136,8 +146,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of
     if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
   }
   if (beyond > 0)
-    tool.warn(fmt::format("{} shift{} beyond the radius {} m", beyond,
-                          beyond == 1 ? " is" : "s are", task.body.R));
+    tool.warn(fmt::format("{} shift{} beyond the radius", beyond, beyond == 1 ? " is" : "s are"));
   if (tests_nothing && (task.summary || tool.checks))
     tool.warn(
         "D was computed from the derivative of the same v: the balance compares v with itself "
@@ -148,14 +157,16 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& of
 /// The table of --summary: a row for each run, with a blank cell for a closure that it does not
 /// have.
 int write_summary(Tool& tool, Reader& in, const Task& task) {
-  const bool inclined = task.body.slope != 0;
+  const bool inclined = std::ranges::any_of(
+      task.laws, [](const LawOfFile& law) { return law.contact.body.slope != 0; });
   std::vector<Column> columns = {{"E_start", "J"}, {"E_end", "J"},    {"E_diss", "J"},
                                  {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
                                  {"closure_L", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
   tool.out.names(columns);
   return balance_runs(
-      tool, in, task, in, [](const Ledger&, const Balance&) {},
+      tool, in, task, in, [](const LawOfFile&) {},
+      [](const Ledger&, const Balance&, const LawOfFile&) {},
       [&](const Balance& balance) {
     const Account& energy = balance.energy;
     for (const double cell : {energy.start(), energy.end(), energy.to_mat()}) tool.out.cell(cell);
@@ -177,9 +188,10 @@ int main(int argc, char** argv) {
   LawOptions law;
   double temperature = not_given;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
-  tool.body(task.body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
+  Body& body = task.given.body;
+  tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
   add_options(tool, law);
-  tool.geometry(task.geometry);
+  tool.geometry(task.given.geometry);
   tool.text("--columns", columns, "NAME,...",
             "what to append: any quantities of the paper (energies and flows of energy)");
   tool.number("--temperature", temperature, positive, "of the mat [K], for Pi_S");
@@ -205,38 +217,43 @@ int main(int argc, char** argv) {
       fail("{} needs --temperature", *name);
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
-    tool.need({"mass", "radius", "shape-factor"});
+    tool.need({"mass"});
     // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
-    for (const UncertainNumber& number : uncertain_numbers) task.body.*number.sigma = 0;
+    for (const UncertainNumber& number : uncertain_numbers) body.*number.sigma = 0;
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
-    const auto read = [&] {
-      return read_law(tool, law, {{"slope", "", &task.body.slope}}, is_chosen("sigma_D"));
-    };
-    if (task.uses_law) task.law = read();
+    const auto read = [&] { return read_laws(tool, law, task.given, is_chosen("sigma_D")); };
+    if (task.uses_law) task.laws = read();
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
     if (task.law_of_scene) {
       task.uses_law = true;
-      task.law = read();
+      task.laws = read();
+    }
+    if (!task.uses_law) {
+      tool.need({"radius", "shape-factor"});
+      task.laws = {{.contact = task.given}};
     }
     task.t = in.need("t");
     task.v = in.need("v");
     task.D = task.uses_law ? task.v : in.need("D");
     task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
     if (task.summary) return write_summary(tool, in, task);
-    Filter filter(
-        in, tool.out,
-        fmt::format("energy-ledger {}{}", task.uses_law ? words_of(task.law.law) : "D",
-                    task.body.slope == 0 ? "" : fmt::format(" slope {}", task.body.slope)));
+    Filter filter(in, tool.out, "");
     for (const auto& quantity : row) filter.append(quantity.column());
     return balance_runs(
         tool, in, task, filter,
-        [&](const Ledger& now, const Balance& balance) {
-      for (const auto& quantity : row)
-        filter.put(quantity.of({now, balance, temperature, task.law}));
+        [&](const LawOfFile& law_of_run) {
+      const double slope = law_of_run.contact.body.slope;
+      filter.set_history(fmt::format("energy-ledger {}{}",
+                                     task.uses_law ? words_of(law_of_run.law) : "D",
+                                     slope == 0 ? "" : fmt::format(" slope {}", slope)));
         },
+        [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
+      for (const auto& quantity : row)
+        filter.put(quantity.of({now, balance, temperature, law_of_run}));
+    },
         [](const Balance&) {});
   });
 }

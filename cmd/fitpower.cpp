@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/fit_runs.h"
-#include "cli/law_file.h"
+#include "cli/fit_line.h"
 #include "cli/history.h"
+#include "cli/law_file.h"
 #include "fit/fit.h"
+#include "report/fit_runs.h"
 #include "text/number.h"
 
 using namespace rolling;
@@ -26,6 +27,14 @@ void fix(FitOptions& options, const std::string& setting) {
     fail("the value in '{}' is not a number", shown(setting));
   if (*parameter->second) fail("'{}' comes after another for {}", shown(setting), parameter->first);
   *parameter->second = value;
+}
+
+/// The values of --route.
+std::map<std::string, std::optional<Route>> routes() {
+  std::map<std::string, std::optional<Route>> all{{"fits", {}}};
+  for (const Route route : {Route::loglog, Route::shift, Route::velocity, Route::position})
+    all[name_of(route)] = route;
+  return all;
 }
 
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
@@ -96,6 +105,16 @@ std::vector<Cell> row_of(const FitOfRuns& fit, bool with_slope) {
   return row;
 }
 
+/// The line that says of what the rows were made.
+std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& options) {
+  std::vector<std::optional<ShiftOf>> of_runs;
+  for (const FitOfRuns& fit : fits)
+    for (const Run& run : fit.runs)
+      of_runs.push_back(is_trajectory(fit.route) ? contact_of(fit.route, run, options)
+                                                 : run.shift_of);
+  return line_of_fit(name_of(fits.front().route), *options.law, of_runs, options.fit_slope);
+}
+
 /// Writes a row for each fit, of which `fitted` is one. A run that could not be fitted has blank
 /// cells, and so have errors that do not exist.
 void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fitted,
@@ -157,12 +176,7 @@ int main(int argc, char** argv) {
   bool each = false;
   bool with_report = false;
   tool.choice<std::optional<Route>>(
-      "--route", given_route,
-      {{"fits", {}},
-       {"loglog", Route::loglog},
-       {"position", Route::position},
-       {"shift", Route::shift},
-       {"velocity", Route::velocity}},
+      "--route", given_route, routes(),
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
       "if there is D, else position if x, else velocity");
   tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
@@ -205,6 +219,8 @@ int main(int argc, char** argv) {
     const auto first = std::ranges::find_if(fits, fitted);
     if (first == fits.end()) return trouble;
 
+    tool.out.text("## " + line_above(fits, options));
+    tool.out.end_line();
     write(tool.out, fits, *first, options.fit_slope, each);
     const bool compares = with_report || tool.checks;
     if (options.robust && compares)

@@ -81,19 +81,26 @@ struct Task {
   double way = 1;  ///< -1 towards falling x: `roll` is the mirror image, with v0 >= 0
   double t0 = 0;
   LawOptions law{};
+  std::string run;  ///< whose row of the file of laws is rolled
   Method method{};
   double rtol = 1e-10;
   bool report = false;
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    tool.need({"radius", "shape-factor"});
-    roll.law = read_law(tool, law,
-                        {{"slope", "", &roll.body.slope},
-                         {"v0", "m/s", &roll.v0},
-                         {"x0", "m", &roll.x0},
-                         {"t0", "s", &t0}})
-                   .law;
+    const auto laws = read_laws(tool, law, {roll.body, roll.geometry});
+    if (laws.size() > 1 && run.empty())
+      fail("{}: {} rows: choose one by --run NAME", shown(law.file), laws.size());
+    const LawOfFile& row = run.empty() ? laws.front() : law_of(laws, run);
+    roll.law = row.law;
+    roll.body = row.contact.body;
+    roll.geometry = row.contact.geometry;
+    const auto take = [&](const char* option, double of_row, double& value) {
+      if (!std::isnan(of_row) && !tool.on_command_line(option)) value = of_row;
+    };
+    take("v0", row.v0, roll.v0);
+    take("x0", row.x0, roll.x0);
+    take("t0", row.t0, t0);
     if (std::isnan(roll.v0)) tool.need({"v0"});
     if (roll.v0 < 0) way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way;
     if (!tool.on_command_line("method")) method = best_method(roll);
@@ -110,6 +117,7 @@ void check_options(const Tool& tool, const Task& task) {
                 "does not go with --sensor, whose rows come at --rate, with its own columns, "
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
+  if (task.law.file.empty()) tool.refuse({"run"}, "goes with --law and its rows");
   if (tool.on_command_line("at"))
     tool.refuse({"dt", "until"}, "does not go with --at, whose file has all times");
   if (task.method.kind != Method::solver && !task.report)
@@ -141,6 +149,7 @@ void add_options(Tool& tool, Task& task) {
   roll.v0 = not_given;
   tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
   add_options(tool, task.law);
+  tool.text("--run", task.run, "NAME", "the run whose row of --law is rolled");
   tool.geometry(roll.geometry);
   tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s]: below 0 towards falling x");
   tool.number("--x0", roll.x0, any_number, "position at t0 [m] (0)");
@@ -178,7 +187,8 @@ class RowWriter {
     out_.text("## simulate " + words_of(law) +
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, task_.way * v0) +
               (body.slope == 0 ? "" : fmt::format(" slope {}", task_.way * body.slope)) +
-              (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)));
+              (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)) +
+              (geometry == Geometry::exact ? " exact" : ""));
     out_.end_line();
     std::vector<Column> header;
     for (const auto& quantity : row_) header.push_back(quantity.column());

@@ -33,8 +33,9 @@
 #   --- NAME                     any other name is a file in the folder where the lines run
 #
 # The lines run with bin/ on the PATH, nothing on standard input, in a new folder of the case; its
-# neighbours are ../samples and the files that stand above the first case. What a file of text does
-# not show (CR, a last line without its end) is made by printf. Above the first case also comments.
+# neighbours are ../samples and the files that stand above the first case. The version in a line
+# `## fitpower VERSION ...` is not compared. What a file of text does not
+# show (CR, a last line without its end) is made by printf. Above the first case also comments.
 # A script runs at the top of the checkout: status 0 is passed, 77 is skipped (its last line says
 # why, and how to have it), anything else is failed.
 set -u
@@ -82,6 +83,8 @@ run_case() {  # the path of a case, as plan_cases left it
   (cd "$1" && ulimit -t "$((60 * slower))" && TMPDIR=$2 exec timeout "$((600 * slower))" \
     bash "$1.command") </dev/null >"$2/out" 2>"$2/err"
   status=$?
+  # The version of a build is not what a case is about.
+  sed -i 's/^## fitpower 1[^ ]* /## fitpower VERSION /' "$2/out"
   {
     [ "$status" = "$wanted" ] || echo "exit $status instead of $wanted"
     if [ -f "$1.within" ]; then

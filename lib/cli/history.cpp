@@ -190,7 +190,7 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body)
   for (const UncertainNumber& number : uncertain_numbers) {
     const Estimate then{shift_of->body.*number.value, shift_of->body.*number.sigma};
     const Estimate now{body.*number.value, body.*number.sigma};
-    if (std::isnan(now.value) ||
+    if (std::isnan(now.value) || std::isnan(then.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
       continue;
     add_item(others, fmt::format("{} {} (here {})", number.name, to_text(then), to_text(now)));
@@ -200,6 +200,17 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body)
 
 bool change_numbers(const FilterChain& filters) {
   return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
+}
+
+std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines) {
+  std::optional<Geometry> geometry;
+  for (const std::string& line : lines) {
+    const auto words = split_names(line, '\0');
+    if (words.front() != "shift-from-accel" && words.front() != "simulate") continue;
+    const bool exact = std::ranges::count(words, "exact") > 0;
+    geometry = exact ? Geometry::exact : Geometry::approximate;
+  }
+  return geometry;
 }
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {

@@ -40,6 +40,10 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// NaN is not known.
 std::string other_body(const std::optional<ShiftOf>&, const Body&);
 
+/// The geometry in which D was computed: by the last line of shift-from-accel or of simulate, if
+/// there is one.
+std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines);
+
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "base/enumeration.h"
 #include "base/error.h"
+#include "cli/fit_line.h"
+#include "cli/history.h"
 
 namespace rolling {
 namespace {
@@ -48,9 +52,86 @@ const LawForm* law_of_columns(const Reader& in, const std::string& file) {
   return nullptr;
 }
 
-/// The row of fitpower in a file.
-LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& given,
-                   std::vector<RowNumber> numbers, bool with_errors) {
+/// A number of its roll that a row may have.
+struct RollNumber {
+  const char* name;
+  const char* unit;
+  double LawOfFile::*value;
+};
+constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
+                                       {"v0", "m/s", &LawOfFile::v0},
+                                       {"x0", "m", &LawOfFile::x0},
+                                       {"t0", "s", &LawOfFile::t0}};
+
+/// Reads rows of fitpower.
+class RowReader {
+ public:
+  RowReader(Reader& in, const LawForm& form, bool with_errors) : in_(in), form_(form) {
+    for (const RollNumber& number : roll_numbers)
+      if (in.find(number.name)) roll_.emplace_back(in.need_as_is(number.name, number.unit), number);
+    for (const Column& c : columns_of(form)) {
+      coefficients_.push_back(in.need_as_is(c.name, c.unit));
+      if (with_errors) sigmas_.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+    }
+    if (with_errors)
+      for (const std::string& name : correlations_of(form))
+        correlations_.push_back(in.need_as_is(name));
+  }
+
+  LawOfFile read() const {
+    std::vector<double> written;
+    for (const std::size_t slot : coefficients_) written.push_back(in_[slot]);
+    LawOfFile row{Law::as_written(form_, written)};
+    if (const auto run = in_.find("run")) row.run = in_.text(*run);
+    for (const auto& [slot, number] : roll_) row.*number.value = in_[slot];
+    for (std::size_t j = 0; j < sigmas_.size(); ++j) {
+      row.coefficients.push_back({written[j], in_[sigmas_[j]]});
+      row.correlations.emplace_back();
+      for (std::size_t i = 0; i < j; ++i)
+        row.correlations[j].push_back(in_[correlations_[j * (j - 1) / 2 + i]]);
+    }
+    return row;
+  }
+
+ private:
+  Reader& in_;
+  const LawForm& form_;
+  std::vector<std::pair<std::size_t, RollNumber>> roll_;  // with their slots
+  std::vector<std::size_t> coefficients_;                 // slots, as these
+  std::vector<std::size_t> sigmas_;
+  std::vector<std::size_t> correlations_;
+};
+
+/// The rows of one run of the file; each has the body that the `##` line tells of it.
+std::vector<LawOfFile> read_rows_of_run(Tool& tool, Reader& in, const RowReader& reader,
+                                        const ShiftOf& given) {
+  std::vector<LawOfFile> rows;
+  std::vector<std::size_t> places;  // in the file, where runs that were not fitted have rows too
+  const std::size_t left_out = in.left_out();
+  while (in.next()) {
+    places.push_back(rows.size() + in.left_out() - left_out);
+    rows.push_back(reader.read());
+  }
+  const auto contacts = contacts_of_rows(in.history(), rows.size() + in.left_out() - left_out);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    LawOfFile& row = rows[i];
+    row.contact = given;
+    if (!contacts.empty()) {
+      row.has_contact = true;
+      const std::string others = take_contact(tool, contacts[places[i]], row.contact);
+      if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
+    }
+    // The slope of a row is fitted: it takes precedence over that of a scene.
+    if (!std::isnan(row.slope) && !tool.on_command_line("slope"))
+      row.contact.body.slope = row.slope;
+  }
+  return rows;
+}
+
+/// The rows of fitpower in a file.
+std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const LawForm& form,
+                                 const LawOptions& options, const ShiftOf& given,
+                                 bool with_errors) {
   const bool power = &form == &laws().front();
   if (!power)
     tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
@@ -58,37 +139,34 @@ LawOfFile read_row(Tool& tool, Reader& in, const LawForm& form, const PowerLaw& 
     tool.refuse({"coefficient", "exponent"}, "does not go with the uncertainties of a row");
   const bool replaced = tool.on_command_line("coefficient") || tool.on_command_line("exponent");
   if (replaced) tool.need({"coefficient", "exponent"});
-  std::erase_if(numbers, [&](const RowNumber& number) {
-    return !in.find(number.name) || tool.on_command_line(number.name);
-  });
-  std::vector<std::size_t> columns, coefficients, sigmas, correlations;  // slots
-  for (const RowNumber& number : numbers)
-    columns.push_back(in.need_as_is(number.name, number.unit));
-  for (const Column& c : columns_of(form)) {
-    coefficients.push_back(in.need_as_is(c.name, c.unit));
-    if (with_errors) sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+  const RowReader reader(in, form, with_errors);
+  std::vector<LawOfFile> all;
+  while (in.next_run()) {
+    if (law_of_columns(in, options.file) != &form)
+      fail<InputError>("{}: rows of several laws: give those of one", shown(options.file));
+    std::ranges::move(read_rows_of_run(tool, in, reader, given), std::back_inserter(all));
   }
-  if (with_errors)
-    for (const std::string& name : correlations_of(form))
-      correlations.push_back(in.need_as_is(name));
-  if (!in.next_run() || !in.next()) fail<InputError>("{}: no row of fitpower", in.where());
-  for (std::size_t i = 0; i < numbers.size(); ++i) *numbers[i].value = in[columns[i]];
-  std::vector<double> written;
-  for (const std::size_t coefficient : coefficients) written.push_back(in[coefficient]);
-  LawOfFile row{};
-  for (std::size_t j = 0; j < sigmas.size(); ++j) {
-    row.coefficients.push_back({written[j], in[sigmas[j]]});
-    row.correlations.emplace_back();
-    for (std::size_t i = 0; i < j; ++i)
-      row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
+  if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(options.file));
+  std::set<std::string> runs;
+  for (LawOfFile& row : all) {
+    if (const auto law = row.law.power(); law && !replaced && !(law->a > 0))
+      fail<InputError>("{}: a = {} must be greater than 0", shown(options.file), law->a);
+    if (all.size() > 1 && row.run.empty())
+      fail<InputError>(
+          "{}: more than one row: a law is one row of fitpower, or one for each run, "
+          "with its name in a column run",
+          shown(options.file));
+    if (!runs.insert(row.run).second)
+      fail<InputError>("{}: two rows of run '{}'", shown(options.file), shown(row.run));
+    const auto is_taken = [&](const RollNumber& number) {
+      return !std::isnan(row.*number.value) && tool.has(number.name) &&
+             !tool.on_command_line(number.name);
+    };
+    if (replaced && !row.has_contact && std::ranges::none_of(roll_numbers, is_taken))
+      fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
+    if (replaced) row.law = options.power;
   }
-  if (power && !replaced && !(written[0] > 0)) fail("a = {} must be greater than 0", written[0]);
-  if (replaced && numbers.empty())
-    fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
-  if (in.next() || in.next_run()) fail("more than one row: a law is one row of fitpower");
-  if (replaced) written = {given.a, given.b};
-  row.law = Law::as_written(form, written);
-  return row;
+  return all;
 }
 
 }  // namespace
@@ -146,16 +224,22 @@ void add_options(Tool& tool, LawOptions& law) {
             "file (- is standard input) with the law: a row of fitpower or a table of v D");
 }
 
-LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowNumber>& numbers,
-                   bool with_errors) {
+std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,
+                                 bool with_errors) {
   const std::string& file = options.file;
   if (file.empty()) {
-    tool.need({"coefficient", "exponent"});
-    return {options.power};
+    tool.need({"coefficient", "exponent", "radius", "shape-factor"});
+    return {{.law = options.power, .contact = given}};
   }
   Reader& in = tool.read_file(file, {"v", "D"});
-  if (const LawForm* form = law_of_columns(in, file))
-    return read_row(tool, in, *form, options.power, numbers, with_errors);
+  if (const LawForm* form = law_of_columns(in, file)) {
+    auto rows = read_rows(tool, in, *form, options, given, with_errors);
+    for (const LawOfFile& row : rows)
+      if (std::isnan(row.contact.body.K) || std::isnan(row.contact.body.R))
+        tool.need({"radius", "shape-factor"});
+    return rows;
+  }
+  tool.need({"radius", "shape-factor"});
   tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
   if (!in.find("v") || !in.find("D"))
     fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
@@ -171,10 +255,40 @@ LawOfFile read_law(Tool& tool, const LawOptions& options, const std::vector<RowN
       shifts.push_back(in[D]);
     }
   try {
-    return {TableLaw(std::move(speeds), std::move(shifts))};
+    return {{.law = TableLaw(std::move(speeds), std::move(shifts)), .contact = given}};
   } catch (const Error& error) {
     fail<InputError>("{}: {}", file, error.what());
   }
+}
+
+const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& run) {
+  if (laws.size() == 1) return laws.front();
+  std::string runs;
+  for (const LawOfFile& law : laws) {
+    if (law.run == run) return law;
+    add_item(runs, law.run);
+  }
+  fail<InputError>("the file of laws has no row of run '{}' (runs: {})", shown(run), shown(runs));
+}
+
+std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) {
+  Body given = contact.body;
+  for (const UncertainNumber& number : uncertain_numbers) {
+    if (tool.given(number.value)) continue;
+    given.*number.value = not_given;
+    if (std::isnan(of.body.*number.value)) continue;
+    contact.body.*number.value = of.body.*number.value;
+    contact.body.*number.sigma = of.body.*number.sigma;
+  }
+  std::string others = other_body(of, given);
+  take_geometry(tool, of.geometry, contact.geometry, others);
+  return others;
+}
+
+void take_geometry(const Tool& tool, Geometry other, Geometry& geometry, std::string& others) {
+  if (!tool.given("exact")) geometry = other;
+  else if (geometry != other)
+    add_item(others, other == Geometry::exact ? "--exact (here A = 1)" : "A = 1 (here --exact)");
 }
 
 double LawOfFile::sigma(double v) const {

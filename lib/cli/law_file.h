@@ -9,6 +9,7 @@
 #include "base/matrix.h"
 #include "cli/tool.h"
 #include "contact/law.h"
+#include "fit/input.h"
 #include "text/column.h"
 
 namespace rolling {
@@ -36,16 +37,18 @@ struct LawOptions {
 /// -a, -b and --law.
 void add_options(Tool&, LawOptions&);
 
-/// A number that a row of fitpower may have, under the name of an option of the tool.
-struct RowNumber {
-  const char* name;  ///< slope, v0, x0 or t0
-  const char* unit;
-  double* value;
-};
-
-/// A law as a file tells it.
+/// A law as a file tells it, and the body that rolls under it.
 struct LawOfFile {
-  Law law;
+  Law law = {};
+  /// Of the options; where these give no number, of the row of fitpower and its `##` line.
+  ShiftOf contact = {};
+  bool has_contact = false;  ///< the `##` line of the row has the body
+  std::string run = {};      ///< the run that the row is of, if it has a column run
+  /// What the row has of its roll; else NaN.
+  double slope = not_given;
+  double v0 = not_given;
+  double x0 = not_given;
+  double t0 = not_given;
   /// Of a row, where they are asked for: the coefficients of the formula in SI units, and their
   /// correlations row by row below the diagonal.
   std::vector<Estimate> coefficients = {};
@@ -56,14 +59,26 @@ struct LawOfFile {
   double sigma(double v) const;
 };
 
-/// The law that the options tell: a v^b if there is no file, which then needs a and b; else a table
-/// of v and D, or a row of fitpower, a file with the columns of the coefficients of a law, which
-/// sets these numbers too. `-` is standard input. What the command line gives takes precedence: a
-/// and b, which replace the law together, and the numbers; these keep their values where the row
-/// has no such column. Columns with units are converted to SI. `with_errors`: a row needs its
-/// uncertainties. Throws Error for any other file, for more than one row, for a row that sets
-/// nothing, and for another law than a v^b beside -a or -b.
-LawOfFile read_law(Tool&, const LawOptions&, const std::vector<RowNumber>&,
-                   bool with_errors = false);
+/// The laws that the options tell: a v^b if there is no file, which then needs a and b; else a
+/// table of v and D, or rows of fitpower, a file with the columns of the coefficients of a law.
+/// Several rows have a column run with different names. `-` is standard input. -a and -b on the
+/// command line replace the law of a row together. `given` is what the options give of the body,
+/// where K and R may be NaN; the row completes it, and where it has other numbers than are given,
+/// a line says so. Columns with units are converted to SI. `with_errors`: a row needs its
+/// uncertainties. Throws Error for any other file, for rows of several laws, for a row that tells
+/// nothing, for a body without K or R, and for another law than a v^b beside -a or -b.
+std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const ShiftOf& given,
+                                 bool with_errors = false);
+
+/// Completes what the options give of a body and its geometry by those with which a law was fitted.
+/// Returns "K 0.5 (here 0.83)": the numbers that the options give otherwise.
+std::string take_contact(const Tool&, const ShiftOf& of_law, ShiftOf& contact);
+
+/// Takes a geometry unless the options give one; adds it to `others` where that is another one.
+void take_geometry(const Tool&, Geometry other, Geometry& geometry, std::string& others);
+
+/// The law of this run: the only one there is, or that of the row with its name. Throws Error if
+/// there is none.
+const LawOfFile& law_of(const std::vector<LawOfFile>&, const std::string& run);
 
 }  // namespace rolling

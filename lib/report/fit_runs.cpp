@@ -53,6 +53,11 @@ Estimate of_run(const std::vector<Estimate>& values, const char* option, std::si
 
 }  // namespace
 
+std::string name_of(Route route) {
+  constexpr std::array names{"loglog", "shift", "velocity", "position"};
+  return names[static_cast<std::size_t>(route)];
+}
+
 std::vector<Quantity> columns_of(Route route) {
   if (!is_trajectory(route)) return {Quantity::v, Quantity::D};
   return {Quantity::t, fitted_column(route)};

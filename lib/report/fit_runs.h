@@ -14,6 +14,9 @@
 
 namespace rolling {
 
+/// "position"
+std::string name_of(Route);
+
 /// The columns that a route fits; the one that it compares stands last.
 std::vector<Quantity> columns_of(Route);
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "cli/fit_line.h"
+#include "cli/law_file.h"
 #include "contact/body.h"
 #include "statistics/run_laws.h"
 
@@ -67,7 +69,11 @@ FitRows read_rows(Tool& tool) {
   FitRows rows;
   while (in.next_run()) {
     const auto name = in.find("run");
+    const std::size_t first = rows.runs.size();
+    const std::size_t left_out = in.left_out();
+    std::vector<std::size_t> places;  // in the file, where runs that were not fitted have rows too
     while (in.next()) {
+      places.push_back(rows.runs.size() - first + in.left_out() - left_out);
       rows.add(name ? std::string(in.text(*name)) : in.where(), {in[a], in[sigma_a]},
                {in[b], in[sigma_b]}, in[corr]);
       const auto parameters = static_cast<double>(  // what is fixed has no error
@@ -76,6 +82,9 @@ FitRows read_rows(Tool& tool) {
       rows.laws.back().rms = in[rms];
       rows.laws.back().freedom = in[n] - parameters;
     }
+    const auto contacts = contacts_of_rows(in.history(), places.size() + in.left_out() - left_out);
+    for (std::size_t i = 0; i < places.size() && !contacts.empty(); ++i)
+      rows.runs[first + i].shift_of = contacts[places[i]];
   }
   if (rows.laws.size() < 2)
     fail("{}: a joint law is that of two or more", counted(rows.laws.size(), "row"));
@@ -139,8 +148,21 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   FitRows rows = read_rows(tool);
   warn_of_same_rows(tool, rows);
   bodies.give_to(rows.runs);
+  std::vector<std::optional<ShiftOf>> of_runs;
+  for (Run& run : rows.runs) {
+    if (run.shift_of) {
+      ShiftOf contact{run.body, run.shift_of->geometry};
+      const std::string others = take_contact(tool, *run.shift_of, contact);
+      if (!others.empty()) tool.warn(run.name, "the row was fitted with " + others);
+      run.body = contact.body;
+      run.shift_of = contact;
+    }
+    of_runs.push_back(run.shift_of);
+  }
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);
+  tool.out.text("## " + line_of_fit("fits", laws().front(), of_runs, false));
+  tool.out.end_line();
   write(tool.out, joint, rows.laws.size());
   tool.out.flush();
   if (!joint.agreement.agree()) tool.object("", disagreement(joint.agreement, rows.runs));

@@ -188,7 +188,7 @@ void Reader::begin_run() {
 
 std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind, std::string_view unit) {
   const std::size_t slot = needed_.add(name, kind, unit);
-  if (needed_.all()[slot].quantity == "t") time_slot_ = slot;
+  if (kind != NeededColumns::Kind::as_is && needed_.all()[slot].quantity == "t") time_slot_ = slot;
   read_needed();
   return slot;
 }

@@ -91,7 +91,7 @@ if [ "$slope" = fit ]; then
 fi
 fit --slope "$slope" --each "$new/rolls" >"$new/table.txt" || say 'some runs have no law'
 if [ "$runs" -gt 1 ]; then
-  fitpower --digits 6 --route fits -K "$K" -R "$R" "$new/table.txt" >"$new/joint.txt"
+  fitpower --digits 6 --route fits "$new/table.txt" >"$new/joint.txt"
   cat "$new/joint.txt"
 else
   cat "$new/table.txt"
@@ -111,17 +111,14 @@ fi
 failed=0
 # Of a list, K or R, the value of run number $2.
 of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
-check_run() {  # NUMBER NAME
-  local law
+check_run() {  # NUMBER
   [ "$column" = v ] || fitpower -q --check --run "$1" --route position -K "$(of_run "$K" "$1")" \
     -R "$(of_run "$R" "$1")" --slope "$slope" "$new/rolls" >/dev/null || return 1
   [ "$m" ] || return 0
-  law=$(awk -F '\t' -v i="$1" '!/^#/ && ++n == i { print "-a " $1 " -b " $3 }' "$new/table.txt")
-  # shellcheck disable=SC2086  # two options and their numbers
   if [ "$column" = x ]; then differentiate -q -c x -M savgol -w 21 --run "$1" "$new/rolls"
   else smooth -q -c v -M savgol -w 21 --run "$1" "$new/rolls"; fi |
-    energy-ledger -m "$(of_run "$m" "$1")" -K "$(of_run "$K" "$1")" -R "$(of_run "$R" "$1")" \
-      --slope "$slope" $law --summary --check 0.05 >>"$new/energy.txt"
+    energy-ledger -m "$(of_run "$m" "$1")" --law "$new/table.txt" --summary --check 0.05 \
+      >>"$new/energy.txt"
 }
 is_accepted() {
   local name
@@ -129,8 +126,7 @@ is_accepted() {
   return 1
 }
 if $check; then
-  [ "$runs" -lt 2 ] || fitpower -q --check --route fits -K "$K" -R "$R" "$new/table.txt" >/dev/null ||
-    { say 'the runs do not have one law'; failed=1; }
+  [ "$runs" -lt 2 ] || fitpower -q --check --route fits "$new/table.txt" >/dev/null || { say 'the runs do not have one law'; failed=1; }
   number=0
   while IFS= read -r name; do
     number=$((number + 1))

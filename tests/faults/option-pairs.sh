@@ -13,6 +13,7 @@ smooth -q --coast -w 7 "$samples/CR.csv" "$samples/SR.csv" | differentiate |
 printf '99\tNaN\tNaN\tNaN\tNaN\n' >>roll
 printf 'a b v0 slope\n2e-3 0.3 0.45 3e-4\n' >row
 printf 'a b v0\n2e-3 0.3 0.45\n' >law
+printf 'a b x0 run\n2e-3 0.3 0.4 one\n2e-3 0.3 0.5 two\n' >rows
 printf '0.001 5e-4\n0.1 1e-3\n0.3 1.4e-3\n0.8 1.7e-3\n' >table
 printf 't\n0\n0.3\n1\n' >moments
 printf 'gravity = 9.8\nslope = 1e-4\n' >scene
@@ -20,7 +21,7 @@ printf 'gravity = 9.8\nslope = 1e-4\n' >scene
 # Each tool with what it needs, and its other options, with values that are not the default.
 # -q and -u say how something is printed. A temperature describes the mat, as a scene does: it may
 # be given whatever is printed. The error of a solver is below the resolution of a sensor.
-excused='--sensor pasco --method rkf45|--use D=x --scene scene'
+excused='--sensor pasco --method rkf45|--sensor pasco --law rows --run two|--use D=x --scene scene'
 scene='-g 9.7|--slope 0.001|--exact|--scene scene'
 input='--run 2|--strict|--digits 5'
 declare -A begin=(
@@ -36,7 +37,7 @@ declare -A options=(
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
   [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"
-  [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16"
+  [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--law rows --run two|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16"
   [energy-ledger]="-a 1e-3|-b 0.1|--law row|--law table|--columns E_trans,F_N,A,Pi_S,W_g|--summary|--check 1e-3|--use v=x|$scene|$input"
 )
 

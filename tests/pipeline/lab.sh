@@ -21,8 +21,8 @@ cd "$scratch/samples/lab" || exit 2
 
 of_body='-K 0.5 -R 0.04 -m 1.375'
 lab() { ./lab.sh "$@" >said 2>&1; }
-runs() { cut -f "$(head -n 1 results/table.txt | tr '\t' '\n' | grep -n '^run$' | cut -d: -f1)" \
-  results/table.txt | grep -v '^run$'; }
+runs() { cut -f "$(grep '^# ' results/table.txt | tr '\t' '\n' | grep -n '^run$' | cut -d: -f1)" \
+  <(grep -v '^##' results/table.txt) | grep -v '^run$'; }
 law() { awk '!/^#/ { print $1, $3 }' results/joint.txt; }
 
 # Five rolls of one cylinder on one mat, as the README of this folder makes them.

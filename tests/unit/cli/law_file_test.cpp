@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "cli/fit_line.h"
 #include "unit/catch.h"
 #include "unit/text/files.h"
 
@@ -17,24 +18,27 @@ namespace {
 struct Given {
   LawOptions options{};
   PowerLaw law{};
-  LawOfFile file{};
-  double slope = 0, v0 = not_given, x0 = 0, t0 = 0;
+  std::vector<LawOfFile> files{1};
+  const LawOfFile& file() const { return files.front(); }
+  double v0 = not_given;
   int status = 0;
   std::string said;
 };
 
+const std::vector<std::string> body_words{"-K", "0.5", "-R", "0.04"};
+
 /// What a file with this text sets, beside these words on the command line.
-Given law_of(const std::string& text, std::vector<std::string> words = {},
-             bool with_errors = false) {
+Given law_of(const std::string& text, std::vector<std::string> words = {}, bool with_errors = false,
+             const std::vector<std::string>& body = body_words) {
   const TemporaryFile file(text), errors;
   Given given;
   Tool tool("tool", "");
-  Body body{};
-  tool.body(body, {&Body::slope});
+  ShiftOf contact{};
+  tool.body(contact.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
+  tool.geometry(contact.geometry);
   add_options(tool, given.options);
   tool.number("--v0", given.v0, any_number, "");
-  tool.number("--x0", given.x0, any_number, "");
-  tool.number("--t0", given.t0, any_number, "");
+  words.insert(words.begin(), body.begin(), body.end());
   words.insert(words.begin(), "tool");
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -42,15 +46,9 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
   {
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
-      given.slope = body.slope;
       given.options.file = file.name();
-      given.file = read_law(tool, given.options,
-                            {{"slope", "", &given.slope},
-                             {"v0", "m/s", &given.v0},
-                             {"x0", "m", &given.x0},
-                             {"t0", "s", &given.t0}},
-                            with_errors);
-      given.law = given.file.law.power().value_or(given.options.power);
+      given.files = read_laws(tool, given.options, contact, with_errors);
+      given.law = given.file().law.power().value_or(given.options.power);
       return 0;
     });
   }
@@ -63,26 +61,26 @@ Given law_of(const std::string& text, std::vector<std::string> words = {},
 TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[cli]") {
   const std::string row = "# a[mm]\tsigma_a[mm]\tb\tv0[cm/s]\tslope\n1.5\t0.1\t0.25\t50\t0.001\n";
   const Given all = law_of(row);
-  CHECK((all.status == 0 && all.said.empty() && !all.file.law.has_points()));
-  CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.v0 == 0.5 && all.slope == 0.001));
-  const Given some = law_of(row, {"-a", "2e-3", "-b", "0.5", "--v0", "1"});
-  CHECK((some.law.a == 2e-3 && some.law.b == 0.5 && some.v0 == 1 && some.slope == 0.001));
+  CHECK((all.status == 0 && all.said.empty() && !all.file().law.has_points()));
+  CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.file().v0 == 0.5));
+  CHECK(all.file().contact.body.slope == 0.001);
+  const Given some = law_of(row, {"-a", "2e-3", "-b", "0.5", "--slope", "0.1"});
+  CHECK((some.law.a == 2e-3 && some.law.b == 0.5 && some.file().contact.body.slope == 0.1));
   for (const char* half : {"-a", "-b"}) {
     const Given one = law_of(row, {half, "1"});
     CHECK((one.status == 2 && one.said.find("neither given nor in a scene") != std::string::npos));
   }
-  const Given none = law_of(row, {"-a", "2e-3", "-b", "0", "--v0", "1", "--slope", "0"});
+  const Given none = law_of("a b\n2e-3 0\n", {"-a", "2e-3", "-b", "0"});
   CHECK(none.said == "tool: --law tells nothing that is not on the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
-  CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && bare.v0 != bare.v0 && bare.slope == 0));
+  CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && std::isnan(bare.file().v0)));
+  CHECK(bare.file().contact.body.slope == 0);
 }
 
 TEST_CASE("law file: where the roll of a row begins", "[cli]") {
   const std::string row = "# a[m]\tb\tv0[m/s]\tx0[cm]\tt0[ms]\n1e-3\t0\t-0.5\t50\t1720\n";
   const Given all = law_of(row);
-  CHECK((all.v0 == -0.5 && all.x0 == 0.5 && all.t0 == 1.72));
-  const Given some = law_of(row, {"--x0", "0", "--t0", "0"});
-  CHECK((some.v0 == -0.5 && some.x0 == 0 && some.t0 == 0));
+  CHECK((all.file().v0 == -0.5 && all.file().x0 == 0.5 && all.file().t0 == 1.72));
   CHECK(law_of("# a[m]\tb\tt0[m]\n1e-3\t0\t1\n").status == 2);
 }
 
@@ -98,22 +96,22 @@ TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cl
     CAPTURE(v);
     const double log = std::log(std::abs(v)), D = 2e-3 * std::pow(std::abs(v), 0.2);
     CHECK(
-        power.file.sigma(v) ==
+        power.file().sigma(v) ==
         Approx(D * std::sqrt(4e-4 + 1e-4 * log * log + 2 * 0.8 * 0.02 * 0.01 * log)).epsilon(1e-6));
     const double square_v = v * v;
-    CHECK(square.file.sigma(v) ==
+    CHECK(square.file().sigma(v) ==
           Approx(std::sqrt(4e-10 - 2 * 0.7 * 2e-9 * square_v + 1e-8 * square_v * square_v))
               .epsilon(1e-6));
   }
   const std::string bare = "a b\n2e-3 0\n";
-  CHECK(std::isnan(law_of(bare).file.sigma(1)));
+  CHECK(std::isnan(law_of(bare).file().sigma(1)));
   CHECK(law_of(bare, {}, true).status == 2);
 }
 
 TEST_CASE("law file: a table of v and D", "[cli]") {
   const Given given = law_of("# v[cm/s]\tD[mm]\n100\t2\n0\t1\n");
-  REQUIRE(given.file.law.has_points());
-  CHECK((given.file.law(1) == 2e-3 && given.file.law.highest() == 1));
+  REQUIRE(given.file().law.has_points());
+  CHECK((given.file().law(1) == 2e-3 && given.file().law.highest() == 1));
 }
 
 // Every set of up to four of the coefficients: a law of the table, or refused.
@@ -139,6 +137,65 @@ TEST_CASE("law file: a row is a law as a whole or not at all", "[cli]") {
   const std::string row = "a sigma_a b sigma_b corr\n1 0.1 0 0.1 0\n";
   CHECK(law_of(row, {"-a", "1", "-b", "1"}, true).status == 2);
   CHECK(law_of(row, {}, true).status == 0);
+}
+
+TEST_CASE("law file: the line of fitpower has the body, unless the options have it", "[cli]") {
+  const std::string rows = "# a[m]\tb\trun\n1e-3\t0\tone\n2e-3\t0\ttwo\n";
+  const std::string line = "## fitpower 1.1.0 position K 0.5+-0.005,0.83 R 0.04 g 9.8 slope 0";
+  const Given all = law_of(line + '\n' + rows, {}, false, {});
+  REQUIRE((all.status == 0 && all.said.empty() && all.files.size() == 2));
+  const Body& one = law_of(all.files, "one").contact.body;
+  const Body& two = law_of(all.files, "two").contact.body;
+  CHECK((one.K == 0.5 && one.sigma_K == 0.005 && one.R == 0.04 && one.g == 9.8));
+  CHECK((two.K == 0.83 && two.sigma_K == 0 && two.R == 0.04 && two.g == 9.8));
+  CHECK(all.files[0].contact.geometry == Geometry::approximate);
+  CHECK_THROWS_AS(law_of(all.files, "three"), Error);
+
+  const Given exact = law_of(line + " exact\n" + rows, {"-g", "9.8"}, false, {});
+  CHECK(exact.files[1].contact.geometry == Geometry::exact);
+  CHECK(exact.said.empty());
+  const Given other = law_of(line + '\n' + rows, {"-K", "0.83", "--exact"}, false, {});
+  CHECK(other.files[0].contact.body.K == 0.83);
+  CHECK(other.files[0].contact.geometry == Geometry::exact);
+  CHECK(other.said.find("K 0.5+-0.005 (here 0.83)") != std::string::npos);
+  CHECK(other.said.find("A = 1 (here --exact)") != std::string::npos);
+
+  // A run that was not fitted has a row without numbers.
+  const Given blank = law_of(
+      "## fitpower 1 position K 1,2,3 R 1 g 1 slope 0\n# a[m]\tb\trun\n1e-3\t0\tone\n"
+      "NaN\tNaN\ttwo\n2e-3\t0\tthree\n",
+      {}, false, {});
+  REQUIRE(blank.files.size() == 2);
+  CHECK((blank.files[0].contact.body.K == 1 && blank.files[1].contact.body.K == 3));
+
+  // One row of two bodies is of neither.
+  const std::string row = "# a[m]\tb\n1e-3\t0\n";
+  CHECK(law_of(line + '\n' + row, {}, false, {}).status == 2);
+  CHECK(law_of(line + '\n' + row, {"-K", "1", "-R", "1"}, false, {}).status == 0);
+  for (const char* damaged : {"## fitpower", "## fitpower 1 position K 0.5 R 0.04 g 9.8",
+                              "## fitpower 1 position K x R 0.04 g 9.8 slope 0",
+                              "## fitpower 1 position R 0.04 K 0.5 g 9.8 slope 0"}) {
+    CAPTURE(damaged);
+    const Given bad = law_of(std::string(damaged) + '\n' + row);
+    CHECK((bad.status == 2 && bad.said.find("not what fitpower writes") != std::string::npos));
+  }
+}
+
+// What line_of_fit() writes, contacts_of_rows() reads.
+TEST_CASE("law file: a line of bodies is read back", "[cli]") {
+  ShiftOf one{{NAN, 0.04, 0.5, 9.81, 0.001}};
+  one.body.sigma_K = 0.01;
+  const ShiftOf two{{NAN, 0.04, 0.83, 9.81, -0.001}};
+  for (const bool fits_slope : {false, true}) {
+    const std::string line = line_of_fit("velocity", laws()[2], {one, two}, fits_slope);
+    CHECK(line.find(" velocity d0+d1*v K 0.5+-0.01,0.83 R 0.04 g 9.81 slope ") < 40);
+    const auto read = contacts_of_rows({line}, 2);
+    REQUIRE(read.size() == 2);
+    CHECK((read[0].body.sigma_K == 0.01 && read[1].body.K == 0.83));
+    if (fits_slope) CHECK(std::isnan(read[0].body.slope));
+    else CHECK((read[0].body.slope == 0.001 && read[1].body.slope == -0.001));
+  }
+  CHECK(contacts_of_rows({line_of_fit("shift", laws()[0], {one, {}}, false)}, 2).empty());
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {

@@ -35,7 +35,8 @@ TEST_CASE("fit_rows: what a number brings to rows is common to those that give i
     });
   }
   CHECK(status == 0);
-  std::istringstream line(printed.text().substr(printed.text().find('\n')));
+  const std::string text = printed.text();
+  std::istringstream line(text.substr(text.rfind('\n', text.size() - 2)));
   double a = 0, sigma_a = 0;
   line >> a >> sigma_a;
   CHECK(a == Approx(0.002));

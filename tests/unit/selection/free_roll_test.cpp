@@ -44,8 +44,6 @@ std::vector<Sample> made_run(double rate, double size, unsigned seed, bool posit
 
 TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, many seeds",
           "[signal]") {
-  // To end 2 runs beyond the stop takes a window of 5 runs at rest above twice its noise that
-  // is not more than 5 runs behind the first window below it.
   const unsigned seeds = of_many(100);
   int beyond = 0, late = 0;
   for (const double sign : {1.0, -1.0})
@@ -55,8 +53,7 @@ TEST_CASE("free_roll: from after the push up to the stop, speeds and positions, 
                    x = made_run(rate, 0.0004, seed, true, sign);
         for (const auto* run : {&v, &x}) {
           const auto [begin, end, first, last] = free_roll(*run, run == &x).kept;
-          INFO((run == &x ? "x " : "v ") << rate << " Hz, seed " << seed << ": " << (*run)[begin].t
-                                         << " to " << (*run)[end - 1].t);
+          CAPTURE(run == &x, rate, seed, (*run)[begin].t, (*run)[end - 1].t);
           CHECK((*run)[begin].t >= release - 0.01);  // where the push has faded: below the noise
           late += (*run)[begin].t >= release + 1;
           CHECK((*run)[end - 1].t <= stop + 4 / rate);
