@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // simulate - roll a body under a law D(v); see simulate(1)
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,12 +23,24 @@ const std::map<std::string, Method> methods = [] {
   return all;
 }();
 
-constexpr Computed<double (*)(double t, Motion&)> quantities[] = {
-    {"t", "s", [](double t, Motion&) { return t; }},
-    {"x", "m", [](double, Motion& motion) { return motion.position(); }},
-    {"v", "m/s", [](double, Motion& motion) { return motion.velocity(); }},
-    {"a", "m/s^2", [](double, Motion& motion) { return motion.acceleration(); }},
-    {"D", "m", [](double, Motion& motion) { return motion.shift(); }},
+/// The arguments of a quantity.
+struct Moment {
+  double t, since;  ///< since t0
+  double way;       ///< of the roll, whose mirror image the motion is if this is -1
+  Motion& motion;
+  const LawOfFile& law;
+};
+
+using Quantities = std::vector<Computed<double (*)(const Moment&)>>;
+constexpr Quantities::value_type quantities[] = {
+    {"t", "s", [](const Moment& m) { return m.t; }},
+    {"x", "m", [](const Moment& m) { return m.way * m.motion.position(); }},
+    {"v", "m/s", [](const Moment& m) { return m.way * m.motion.velocity(); }},
+    {"a", "m/s^2", [](const Moment& m) { return m.way * m.motion.acceleration(); }},
+    {"D", "m", [](const Moment& m) { return m.way * m.motion.shift(); }},
+    {"sigma_x", "m", [](const Moment& m) { return m.law.sigma(m.motion.roll()->at(m.since).x_c); }},
+    {"sigma_v", "m/s",
+     [](const Moment& m) { return m.law.sigma(m.motion.roll()->at(m.since).v_c); }},
 };
 
 /// A run in the form that the software of such a sensor exports: comma-separated, with a line of
@@ -77,31 +90,46 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
 
 /// What the options and the scene describe: the roll and how it is solved.
 struct Task {
+  Quantities row = {};
   Scene roll{};
   double way = 1;  ///< -1 towards falling x: `roll` is the mirror image, with v0 >= 0
   double t0 = 0;
   LawOptions law{};
   std::string run;  ///< whose row of the file of laws is rolled
+  LawOfFile law_of_file{};
+  bool foretells = false;  ///< the uncertainties of the motion are asked for
   Method method{};
   double rtol = 1e-10;
   bool report = false;
 
   /// Reads the law, checks that nothing is missing, and chooses the method.
   void complete(Tool& tool) {
-    const auto laws = read_laws(tool, law, {roll.body, roll.geometry});
+    const auto is_sigma = [](const auto& quantity) { return quantity.name.starts_with("sigma_"); };
+    foretells = std::ranges::any_of(row, is_sigma);
+    if (foretells && law.file.empty())
+      fail("sigma_x and sigma_v are those of a law: they need --law and a row of fitpower");
+    const double given_v0 = roll.v0;
+    const auto laws = read_laws(tool, law, {roll.body, roll.geometry}, foretells);
     if (laws.size() > 1 && run.empty())
       fail("{}: {} rows: choose one by --run NAME", shown(law.file), laws.size());
-    const LawOfFile& row = run.empty() ? laws.front() : law_of(laws, run);
-    roll.law = row.law;
-    roll.body = row.contact.body;
-    roll.geometry = row.contact.geometry;
+    law_of_file = run.empty() ? laws.front() : law_of(laws, run);
+    roll.law = law_of_file.law;
+    roll.body = law_of_file.contact.body;
+    roll.geometry = law_of_file.contact.geometry;
     const auto take = [&](const char* option, double of_row, double& value) {
       if (!std::isnan(of_row) && !tool.on_command_line(option)) value = of_row;
     };
-    take("v0", row.v0, roll.v0);
-    take("x0", row.x0, roll.x0);
-    take("t0", row.t0, t0);
+    take("v0", law_of_file.v0, roll.v0);
+    take("x0", law_of_file.x0, roll.x0);
+    take("t0", law_of_file.t0, t0);
     if (std::isnan(roll.v0)) tool.need({"v0"});
+    // They are correlated with the law, and the row does not say how.
+    if (foretells && roll.v0 != given_v0)
+      fail<OptionError>(
+          "sigma_x and sigma_v are of another roll than that of the row: say its --v0");
+    if (foretells && !std::isnan(law_of_file.slope) && !tool.on_command_line("slope"))
+      fail<OptionError>(
+          "sigma_x and sigma_v do not have the uncertainty of the slope of the row: say --slope");
     if (roll.v0 < 0) way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way;
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
@@ -122,6 +150,8 @@ void check_options(const Tool& tool, const Task& task) {
     tool.refuse({"dt", "until"}, "does not go with --at, whose file has all times");
   if (task.method.kind != Method::solver && !task.report)
     tool.refuse({"rtol"}, "goes with a solver: there is no tolerance here");
+  if (task.foretells && task.method.kind == Method::solver)
+    fail("sigma_x and sigma_v go with the methods closed and exact, without --memory");
   if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
     fail("--damping goes with --memory");
   if (tool.on_command_line("sensor") && task.way < 0)
@@ -142,6 +172,18 @@ double last_time(const Task& task, Motion& motion, double until) {
   double end = std::isnan(until) ? t0 + stop : until;
   while (end - t0 < stop) end = std::nextafter(end, INFINITY);  // v is 0 there
   return end;
+}
+
+/// Says when and where the body comes to rest, or turns, and how well the law tells it.
+void say_stop(Tool& tool, const Task& task, Motion& motion, double end) {
+  const double since = end - task.t0;
+  motion.seek(since);
+  const Roll::Point at = motion.roll()->at(since);
+  const LawOfFile& law = task.law_of_file;
+  tool.warn(fmt::format("the body {} at t = {:.7g} +- {:.2g} s, x = {:.7g} +- {:.2g} m",
+                        motion.roll()->turns() ? "turns" : "stops", end,
+                        law.sigma(motion.roll()->stop_time_by_c()), task.way * motion.position(),
+                        law.sigma(at.x_c)));
 }
 
 void add_options(Tool& tool, Task& task) {
@@ -179,8 +221,7 @@ void add_options(Tool& tool, SonarOptions& sonar) {
 /// Writes the rows of a roll: these quantities at each time.
 class RowWriter {
  public:
-  RowWriter(Output& out, const Task& task, const std::string& columns)
-      : out_(out), task_(task), row_(chosen(columns, quantities)), numbers_(row_.size()) {}
+  RowWriter(Output& out, const Task& task) : out_(out), task_(task), numbers_(task.row.size()) {}
 
   void write_header() const {
     const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
@@ -191,15 +232,15 @@ class RowWriter {
               (geometry == Geometry::exact ? " exact" : ""));
     out_.end_line();
     std::vector<Column> header;
-    for (const auto& quantity : row_) header.push_back(quantity.column());
+    for (const auto& quantity : task_.row) header.push_back(quantity.column());
     out_.names(header);
   }
 
   void write(double t, Motion& motion) {
-    motion.seek(t - task_.t0);
+    const Moment now{t, t - task_.t0, task_.way, motion, task_.law_of_file};
+    motion.seek(now.since);
     // Computed before any is written: a tenth faster than one by one. `0 +` makes -0 a 0.
-    for (std::size_t i = 0; i < row_.size(); ++i)
-      numbers_[i] = 0 + task_.way * row_[i].of(task_.way * t, motion);
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = 0 + task_.row[i].of(now);
     for (const double number : numbers_) out_.cell(number);
     out_.end_line();
   }
@@ -241,7 +282,6 @@ class RowWriter {
  private:
   Output& out_;
   const Task& task_;
-  std::vector<Computed<double (*)(double t, Motion&)>> row_;
   std::vector<double> numbers_;
 };
 
@@ -259,7 +299,8 @@ int main(int argc, char** argv) {
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
   tool.number("--until", until, any_number, "no row is later than this [s] (the stop)");
   tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
-  tool.text("--columns", columns, "NAME,...", "what to compute, of t,x,v,a,D (all)");
+  tool.text("--columns", columns, "NAME,...",
+            "what to compute, of t,x,v,a,D,sigma_x,sigma_v (the first five)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
                     "write what this motion sensor sees, push and rest included");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
@@ -268,10 +309,11 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
+    // The columns, the method and the end are checked before the report.
+    task.row = chosen(columns, quantities);
     task.complete(tool);
     check_options(tool, task);
-    // The columns, the method and the end are checked before the report.
-    RowWriter rows(tool.out, task, columns);
+    RowWriter rows(tool.out, task);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
@@ -283,6 +325,7 @@ int main(int argc, char** argv) {
       write_run(tool.out, *motion, sonar);
     } else if (times_file.empty()) {
       rows.write_every(dt, *motion, end, to_the_stop);
+      if (task.foretells && to_the_stop) say_stop(tool, task, *motion, end);
     } else {
       rows.write_at(tool.read_file(times_file, {"t"}));
     }

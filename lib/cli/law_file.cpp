@@ -2,6 +2,7 @@
 #include "cli/law_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -52,6 +53,24 @@ const LawForm* law_of_columns(const Reader& in, const std::string& file) {
   return nullptr;
 }
 
+/// The changes of the coefficients that a law takes with that of a written one. A central
+/// difference, since the formula is known by the law's coefficients, not the other way round.
+std::vector<double> changes_of(const LawForm& form, std::vector<double> written, std::size_t j,
+                               double change) {
+  constexpr double step = 1e-3;
+  const double value = written[j];
+  const auto moved = [&](double by) {
+    written[j] = value + by * change;
+    return Law::as_written(form, written);
+  };
+  const Law more = moved(step);
+  const Law less = moved(-step);
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < more.size(); ++i)
+    changes.push_back((more.c(i) - less.c(i)) / (2 * step));
+  return changes;
+}
+
 /// A number of its roll that a row may have.
 struct RollNumber {
   const char* name;
@@ -85,7 +104,7 @@ class RowReader {
     if (const auto run = in_.find("run")) row.run = in_.text(*run);
     for (const auto& [slot, number] : roll_) row.*number.value = in_[slot];
     for (std::size_t j = 0; j < sigmas_.size(); ++j) {
-      row.coefficients.push_back({written[j], in_[sigmas_[j]]});
+      row.changes.push_back(changes_of(form_, written, j, in_[sigmas_[j]]));
       row.correlations.emplace_back();
       for (std::size_t i = 0; i < j; ++i)
         row.correlations[j].push_back(in_[correlations_[j * (j - 1) / 2 + i]]);
@@ -291,24 +310,22 @@ void take_geometry(const Tool& tool, Geometry other, Geometry& geometry, std::st
     add_item(others, other == Geometry::exact ? "--exact (here A = 1)" : "A = 1 (here --exact)");
 }
 
-double LawOfFile::sigma(double v) const {
-  if (coefficients.empty()) return not_given;
-  std::vector<double> part;  // what each coefficient brings
+double LawOfFile::sigma(std::span<const double> by_c) const {
+  if (changes.empty()) return not_given;
+  std::vector<double> part;  // what each coefficient of the formula brings
   double variance = 0;
-  for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    // a central difference, since the law is known by its formula's coefficients alone
-    constexpr double step = 1e-3;
-    const auto moved = [&](double by) {
-      std::vector<double> written;
-      for (const Estimate& c : coefficients) written.push_back(c.value);
-      written[j] += by * coefficients[j].sigma;
-      return Law::as_written(law.form(), written)(v);
-    };
-    part.push_back((moved(step) - moved(-step)) / (2 * step));
+  for (std::size_t j = 0; j < changes.size(); ++j) {
+    part.push_back(dot(by_c.first(changes[j].size()), changes[j]));
     variance += part[j] * part[j];
     for (std::size_t i = 0; i < j; ++i) variance += 2 * correlations[j][i] * part[i] * part[j];
   }
   return std::sqrt(std::max(variance, 0.0));
+}
+
+double LawOfFile::sigma(double v) const {
+  std::array<double, LawForm::most> by_c{};
+  if (v != 0) law.at(std::abs(v), by_c.data());
+  return sigma(by_c);
 }
 
 }  // namespace rolling

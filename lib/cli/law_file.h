@@ -2,6 +2,7 @@
 // Laws D(v) as people write them, and the file of the option --law.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,13 +50,17 @@ struct LawOfFile {
   double v0 = not_given;
   double x0 = not_given;
   double t0 = not_given;
-  /// Of a row, where they are asked for: the coefficients of the formula in SI units, and their
-  /// correlations row by row below the diagonal.
-  std::vector<Estimate> coefficients = {};
+  /// Of a row, where they are asked for: by how much the coefficients that the law takes change
+  /// with one standard uncertainty of each coefficient of the formula, and the correlations of
+  /// these, row by row below the diagonal.
+  Matrix changes = {};
   Matrix correlations = {};
 
-  /// The standard uncertainty of D [m] at a velocity: that of a function of quantities that are
-  /// correlated (GUM, Eq. 16). NaN where the law is not a row with its uncertainties.
+  /// The standard uncertainty of a number with these derivatives by the coefficients that the law
+  /// takes: that of a function of quantities that are correlated (GUM, Eq. 16). NaN where the law
+  /// is not a row with its uncertainties.
+  double sigma(std::span<const double> by_c) const;
+  /// That of D [m] at a velocity.
   double sigma(double v) const;
 };
 

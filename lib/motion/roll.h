@@ -29,7 +29,8 @@ class Roll : Leg {
  public:
   using Leg::most, Leg::Point, Leg::Derivatives;
   // Of the first leg; its stop is the turning point of a roll that turns.
-  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed, Leg::stop_time, Leg::stop_until;
+  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed, Leg::stop_time, Leg::stop_time_by_c,
+      Leg::stop_until;
 
   /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
   /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the

@@ -42,6 +42,7 @@ class SpeedRoll final : public Motion {
     check_shift(roll_.body(), D);
     return D;
   }
+  Roll* roll() override { return &roll_; }
 
  private:
   Roll roll_;

@@ -10,6 +10,7 @@
 
 #include "contact/body.h"
 #include "contact/law.h"
+#include "motion/roll.h"
 #include "ode/integrator.h"
 
 namespace rolling {
@@ -46,6 +47,8 @@ class Motion {
   virtual double velocity() = 0;      ///< v [m/s]
   virtual double acceleration() = 0;  ///< dv/dt [m/s^2]
   virtual double shift() = 0;         ///< D [m]
+  /// The roll that this motion is, which has derivatives; nullptr for a solver.
+  virtual Roll* roll() { return nullptr; }
   /// The number of evaluations of a differential equation by seek().
   virtual unsigned long evaluations() const { return 0; }
 };

@@ -103,6 +103,16 @@ TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cl
           Approx(std::sqrt(4e-10 - 2 * 0.7 * 2e-9 * square_v + 1e-8 * square_v * square_v))
               .epsilon(1e-6));
   }
+  const Given both = law_of(
+      "d0[mm] sigma_d0[mm] a[mm] sigma_a[mm] b sigma_b corr_d0_a corr_d0_b corr_a_b\n"
+      "1 0.02 0.5 0.03 1.5 0.1 -0.6 0.5 -0.8\n",
+      {}, true);
+  for (const double v : {0.02, 0.5, 3.0}) {
+    const double part[]{2e-5, 3e-5 * std::pow(v, 1.5), 5e-5 * std::pow(v, 1.5) * std::log(v)};
+    const double variance = part[0] * part[0] + part[1] * part[1] + part[2] * part[2] -
+                            1.2 * part[0] * part[1] + part[0] * part[2] - 1.6 * part[1] * part[2];
+    CHECK(both.file.sigma(v) == Approx(std::sqrt(variance)).epsilon(1e-6));
+  }
   const std::string bare = "a b\n2e-3 0\n";
   CHECK(std::isnan(law_of(bare).file().sigma(1)));
   CHECK(law_of(bare, {}, true).status == 2);
