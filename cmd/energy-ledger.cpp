@@ -14,6 +14,11 @@ using namespace rolling;
 
 namespace {
 
+/// The part of P_diss that the drag of the air takes, as the law has it [W].
+double power_to_air(const Law& law, const Ledger& now) {
+  return 0 + now.omega() * now.F_N() * law.air(now.v());
+}
+
 /// The arguments of a quantity.
 struct Moment {
   const Ledger& now;
@@ -55,6 +60,8 @@ constexpr Computed<double (*)(const Moment&)> quantities[] = {
     {"P_T4", "W", [](const Moment& m) { return m.now.P_T4(); }},
     {"P_diss", "W", [](const Moment& m) { return m.now.P_diss(); }},
     {"E_diss", "J", [](const Moment& m) { return m.balance.energy.to_mat(); }},
+    {"P_air", "W", [](const Moment& m) { return power_to_air(m.law.law, m.now); }},
+    {"E_air", "J", [](const Moment& m) { return m.balance.to_air(); }},
     {"W_g", "J", [](const Moment& m) { return m.balance.energy.to_gravity(); }},
     {"Pi_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
     {"I_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
@@ -132,6 +139,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
       const double D = task.uses_law ? law.law(v) : in[task.D];
       const Ledger now(body, geometry, v, D);
       balance.push(in[task.t], now);
+      if (law.law.has_drag()) balance.push_air(in[task.t], power_to_air(law.law, now));
       beyond += std::abs(D) > body.R;
       of_row(now, balance, law);
     }
@@ -190,6 +198,7 @@ int main(int argc, char** argv) {
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   Body& body = task.given.body;
   tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
+  add_wind(tool, body);
   add_options(tool, law);
   tool.geometry(task.given.geometry);
   tool.text("--columns", columns, "NAME,...",
@@ -223,18 +232,25 @@ int main(int argc, char** argv) {
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
-    const auto read = [&] { return read_laws(tool, law, task.given, is_chosen("sigma_D")); };
-    if (task.uses_law) task.laws = read();
+    const auto read = [&] {
+      task.laws = read_laws(tool, law, task.given, is_chosen("sigma_D"));
+      for (LawOfFile& one : task.laws) {
+        check_wind(body, one.law);
+        one.law = one.law.in_wind(body.wind);
+      }
+    };
+    if (task.uses_law) read();
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
     if (task.law_of_scene) {
       task.uses_law = true;
-      task.laws = read();
+      read();
     }
     if (!task.uses_law) {
       tool.need({"radius", "shape-factor"});
       task.laws = {{.contact = task.given}};
     }
+    if (!task.uses_law) tool.refuse({"wind"}, "goes with a law");
     task.t = in.need("t");
     task.v = in.need("v");
     task.D = task.uses_law ? task.v : in.need("D");
@@ -246,9 +262,10 @@ int main(int argc, char** argv) {
         tool, in, task, filter,
         [&](const LawOfFile& law_of_run) {
       const double slope = law_of_run.contact.body.slope;
-      filter.set_history(fmt::format("energy-ledger {}{}",
+      filter.set_history(fmt::format("energy-ledger {}{}{}",
                                      task.uses_law ? words_of(law_of_run.law) : "D",
-                                     slope == 0 ? "" : fmt::format(" slope {}", slope)));
+                                     slope == 0 ? "" : fmt::format(" slope {}", slope),
+                                     body.wind == 0 ? "" : fmt::format(" wind {}", body.wind)));
         },
         [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
       for (const auto& quantity : row)

@@ -122,6 +122,7 @@ struct Task {
     take("v0", law_of_file.v0, roll.v0);
     take("x0", law_of_file.x0, roll.x0);
     take("t0", law_of_file.t0, t0);
+    check_wind(roll.body, roll.law);
     if (std::isnan(roll.v0)) tool.need({"v0"});
     // They are correlated with the law, and the row does not say how.
     if (foretells && roll.v0 != given_v0)
@@ -130,7 +131,9 @@ struct Task {
     if (foretells && !std::isnan(law_of_file.slope) && !tool.on_command_line("slope"))
       fail<OptionError>(
           "sigma_x and sigma_v do not have the uncertainty of the slope of the row: say --slope");
-    if (roll.v0 < 0) way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way;
+    if (roll.v0 < 0)
+      way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way,
+      roll.body.wind *= way;
     if (!tool.on_command_line("method")) method = best_method(roll);
   }
   std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
@@ -190,6 +193,7 @@ void add_options(Tool& tool, Task& task) {
   Scene& roll = task.roll;
   roll.v0 = not_given;
   tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
+  add_wind(tool, roll.body);
   add_options(tool, task.law);
   tool.text("--run", task.run, "NAME", "the run whose row of --law is rolled");
   tool.geometry(roll.geometry);
@@ -228,6 +232,7 @@ class RowWriter {
     out_.text("## simulate " + words_of(law) +
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, task_.way * v0) +
               (body.slope == 0 ? "" : fmt::format(" slope {}", task_.way * body.slope)) +
+              (body.wind == 0 ? "" : fmt::format(" wind {}", task_.way * body.wind)) +
               (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)) +
               (geometry == Geometry::exact ? " exact" : ""));
     out_.end_line();

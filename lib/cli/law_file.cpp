@@ -243,6 +243,16 @@ void add_options(Tool& tool, LawOptions& law) {
             "file (- is standard input) with the law: a row of fitpower or a table of v D");
 }
 
+void add_wind(Tool& tool, Body& body) {
+  tool.number("--wind", body.wind, any_number,
+              "speed of the air towards falling x [m/s] (0): d2 v^2 becomes d2 (v + W)|v + W|");
+}
+
+void check_wind(const Body& body, const Law& law) {
+  if (body.wind != 0 && !law.has_drag())
+    fail<OptionError>("--wind acts on a term d2 v^2, which this law does not have");
+}
+
 std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,
                                  bool with_errors) {
   const std::string& file = options.file;
@@ -324,7 +334,8 @@ double LawOfFile::sigma(std::span<const double> by_c) const {
 
 double LawOfFile::sigma(double v) const {
   std::array<double, LawForm::most> by_c{};
-  if (v != 0) law.at(std::abs(v), by_c.data());
+  const double wind = v < 0 ? -law.wind() : law.wind();
+  if (v != 0) law.in_wind(wind).at(std::abs(v), by_c.data());
   return sigma(by_c);
 }
 

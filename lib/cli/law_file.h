@@ -38,6 +38,10 @@ struct LawOptions {
 /// -a, -b and --law.
 void add_options(Tool&, LawOptions&);
 
+/// --wind, and an Error for a wind under a law that has no term for the drag of the air.
+void add_wind(Tool&, Body&);
+void check_wind(const Body&, const Law&);
+
 /// A law as a file tells it, and the body that rolls under it.
 struct LawOfFile {
   Law law = {};

@@ -15,6 +15,7 @@ struct Body {
   double slope = 0;  ///< of the mat: tan theta, its rise in metres per metre of growing x
   /// The standard uncertainties, each in the unit of its number; 0 if none is given.
   double sigma_R = 0, sigma_K = 0, sigma_g = 0, sigma_slope = 0;
+  double wind = 0;  ///< speed of the air towards falling x [m/s], for a law with d2 v^2
 };
 
 /// The numbers of a body that may have a standard uncertainty.

@@ -134,8 +134,17 @@ const std::vector<LawForm>& laws() {
        powers<0, 1, 2>,
        nullptr,
        nullptr,
-       {{1, 0, 0}}},
-      {"d0 + d2 v^2", {{"d0"}, {"d2", 1, per_square}}, powers<0, 2>, nullptr, nullptr, {{1, 0}}},
+       {{1, 0, 0}},
+       false,
+       2},
+      {"d0 + d2 v^2",
+       {{"d0"}, {"d2", 1, per_square}},
+       powers<0, 2>,
+       nullptr,
+       nullptr,
+       {{1, 0}},
+       false,
+       1},
       {"d0 + a v^b",
        {{"d0"}, {"a", 1, 0, 2}, {"b", 0}},
        constant_and_power,
@@ -150,6 +159,15 @@ const std::vector<LawForm>& laws() {
        {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
   };
   return all;
+}
+
+/// Replaces v^2 by (v + w)|v + w|, all in the law's unit of speed.
+void Law::blow(double v, Shift& s, double* by_c) const {
+  const auto j = static_cast<std::size_t>(form_->drag);
+  const double air = v + wind_ / v_unit_;
+  by_c[j] = air * std::abs(air);
+  s.D += c_[j] * (by_c[j] - v * v);
+  s.by_log_v += c_[j] * 2 * v * (std::abs(air) - v);
 }
 
 void Law::check_speed(double v) const {

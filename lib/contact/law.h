@@ -71,6 +71,7 @@ struct LawForm {
   /// routes start by themselves.
   std::vector<std::vector<double>> starts;
   bool is_power = false;  ///< a v^b itself, or a special case of it
+  int drag = -1;          ///< the number of the coefficient d2 of v^2, the drag of the air, if any
 
   static constexpr std::size_t most = 3;  ///< coefficients
 };
@@ -106,6 +107,23 @@ class Law {
     return {form, c};
   }
 
+  /// The same law in a wind of w [m/s] against the motion: its term d2 v^2 becomes
+  /// d2 (v + w)|v + w|. D may then be below 0. A law without this term stays as it is.
+  Law in_wind(double w) const {
+    Law other = *this;
+    other.wind_ = has_drag() ? w : 0;
+    other.calm_ = -other.wind_;
+    return other;
+  }
+  bool has_drag() const { return form_ && form_->drag >= 0; }
+  double wind() const { return wind_; }
+  /// The part of D that the drag of the air is, at a velocity.
+  double air(double v) const { return has_drag() ? drag() * (v + wind_) * std::abs(v + wind_) : 0; }
+  /// The derivative of D by the wind, at v >= 0; and the part of D that air at rest, blown at by
+  /// this wind alone, has.
+  double by_wind(double v) const { return has_drag() ? 2 * drag() * std::abs(v + wind_) : 0; }
+  double blast() const { return wind_ == 0 ? 0 : drag() * wind_ * wind_; }
+
   /// The law a v^b that this is, if it is one.
   std::optional<PowerLaw> power() const {
     if (form_ != &laws().front()) return {};
@@ -122,6 +140,7 @@ class Law {
   Shift at(double v, double* by_c) const {
     if (points_) return points_->at(v);
     Shift s = form_->shift(c_.data(), v / v_unit_, by_c);
+    if (wind_ != 0) blow(v / v_unit_, s, by_c);
     for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit_;
     return {D_unit_ * s.D, D_unit_ * s.by_log_v};
   }
@@ -129,8 +148,9 @@ class Law {
     double unused[LawForm::most];
     return at(v, unused);
   }
-  /// D at a velocity: it has the sign of v and is 0 at rest.
+  /// D at a velocity: it has the sign of v and is 0 at rest. The wind is against a v above 0.
   double operator()(double v) const {
+    if (v < 0 && wind_ != 0) return -in_wind(-wind_)(-v);
     return v == 0 ? 0 : std::copysign(1.0, v) * at(std::abs(v)).D;
   }
   /// The limit of D for v -> 0, which may be infinite.
@@ -141,16 +161,24 @@ class Law {
   void check_speed(double v) const;
   /// The speeds, in increasing order, where a derivative of the law jumps.
   std::span<const double> corners() const {
-    return points_ ? std::span<const double>(points_->speeds()) : std::span<const double>();
+    if (points_) return points_->speeds();
+    return wind_ < 0 ? std::span<const double>(&calm_, 1) : std::span<const double>();
   }
   /// Coefficient j of the formula in SI units, and its derivatives by c.
   double in_SI(std::size_t j, std::span<double> by_c) const;
 
  private:
+  double drag() const {
+    return D_unit_ * c_[static_cast<std::size_t>(form_->drag)] / v_unit_ / v_unit_;
+  }
+  void blow(double v, Shift&, double* by_c) const;
+
   const LawForm* form_ = nullptr;
   std::shared_ptr<const TableLaw> points_;
   std::array<double, LawForm::most> c_{};
   double D_unit_ = 1, v_unit_ = 1;
+  double wind_ = 0;  // [m/s]
+  double calm_ = 0;  // the speed at which the air rests beside the body
 };
 
 }  // namespace rolling

@@ -192,10 +192,14 @@ class Balance {
     L.push(t, now.L(), now.I_LH() + now.I_LN(), 0);
     L_H_.push(t, now.tau_H());
   }
+  /// Beside it the power that goes into the air, a part of P_diss [W].
+  void push_air(double t, double power) { air_.push(t, power); }
 
   Account energy, p, L;  // in J, N s and N m s
   /// Angular momentum that F_H and F_N have brought in so far [N m s].
   double L_H() const { return L_H_.value(); }
+  /// Energy that has gone into the air so far, a part of E_diss [J].
+  double to_air() const { return air_.value(); }
   double L_N() const { return 0 - L.to_mat() - L_H(); }
 
  private:
@@ -203,7 +207,7 @@ class Balance {
       : energy(inclined), p(inclined, rest.I_pH()), L(false, rest.I_LH() + rest.I_LN()),
         L_H_(rest.tau_H()), momenta_(momenta) {}
 
-  Integral L_H_;
+  Integral L_H_, air_;
   bool momenta_;
 };
 

@@ -68,9 +68,9 @@ double integral_of_log(double m, double r, double e) {
 
 }  // namespace
 
-Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
-    : body_(body), geometry_(geometry), law_(std::move(law)), v0_(v0), cos_(incline(body).cos),
-      sin_(incline(body).sin), way_(1) {
+Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
+    : body_(body), geometry_(geometry), law_(law.in_wind(body.wind)), v0_(v0),
+      cos_(incline(body).cos), sin_(incline(body).sin), way_(1) {
   if (v0 == 0) {  // a leg of no length, from which nothing moves the end
     end_ = End::stop, stop_ = 0, q0_ = INFINITY;
     return;
@@ -83,7 +83,7 @@ Leg::Leg(const Body& body, Geometry geometry, Law law, double v0)
   const auto power = law_.power();
   if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
   power_ = power->b;
-  for (std::size_t j = 0; j <= law_.size(); ++j) q_c_[j] = start.q_c[j] / start.q;
+  for (std::size_t j = 0; j < derivatives(); ++j) q_c_[j] = start.q_c[j] / start.q;
   sums_ = closed_sums(-std::log(slowest), slowest);
   if (power->b < 1) end_ = End::stop, stop_ = sums_[0] = v0_ / q0_ / (1 - power->b);
 }
@@ -136,7 +136,8 @@ Leg::Rate Leg::rate(double u) const {
   const double A = arm_factor(body_, geometry_, D), lift = A * R * body_.slope, net = D + lift,
                arm = body_.K + A, unit = way_ * g / R / arm;
   r.q = unit * net * cos_;
-  const double terms_of_net = std::abs(D) + std::abs(lift) + std::abs(D_by_log_u);
+  const double terms_of_net =
+      std::abs(D) + std::abs(lift) + std::abs(D_by_log_u) + std::abs(law_.blast());
   r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
   r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
   r.imbalance = terms_of_net > 0 ? std::abs(net) / terms_of_net : 0;
@@ -145,6 +146,7 @@ Leg::Rate Leg::rate(double u) const {
   r.q_v = by_D * D_by_log_u / u;
   for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
   r.q_c[law_.size()] = unit * cos_ * cos_ * (A * R * cos_ - D * sin_);  // by S = tan theta
+  if (law_.has_drag()) r.q_c[law_.size() + 1] = by_D * law_.by_wind(u);
   return r;
 }
 
@@ -175,7 +177,7 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
     positive &= at.q > 0;
     const double dt = u / at.q * (to_radius ? 2 * (1 - z / width) : 1);
     f[0] = dt, f[1] = E * dt;
-    for (std::size_t j = 0; j <= law_.size(); ++j) {
+    for (std::size_t j = 0; j < derivatives(); ++j) {
       f[2 + j] = dt * at.q_c[j] / at.q;
       f[2 + most + j] = E * f[2 + j];
     }
@@ -184,7 +186,8 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
   if (!positive) return {false, 0.5};
   for (std::size_t i = 0; i < values; ++i) {
     const double scale = rates.largest(i) + std::abs(sums_[i]) / width;
-    const std::size_t j = (i - 2) % most;  // of a derivative
+    const std::size_t j = (i - 2) % most;                         // of a derivative
+    if (i >= 2 && j > law_.size() && law_.wind() == 0) continue;  // smooth if the others are
     const double c = i >= 2 && j < law_.size() && law_.c(j) != 0 ? std::abs(law_.c(j)) : 1;
     if (c * scale > least_part * rates.largest(i < 2 ? i : 0))
       largest = std::max(largest, rates.last(i) / scale);
@@ -260,7 +263,7 @@ void Leg::reach(double t) {
 Leg::Point Leg::point(const Sums& sum, double v, double q) const {
   Point p{v, v0_ * sum[1], -way_ * q, 1, 0, {}, {}};
   if (q0_ > 0) p.v_v0 = q / q0_, p.x_v0 = std::abs(v0_ - v) / q0_;
-  for (std::size_t j = 0; j <= law_.size(); ++j) {
+  for (std::size_t j = 0; j < derivatives(); ++j) {
     p.v_c[j] = -way_ * q * sum[2 + j];
     p.x_c[j] = v * sum[2 + j] - v0_ * sum[2 + most + j];
   }
@@ -291,7 +294,7 @@ Leg::Point Leg::beyond_panels(double since) const {
   p.a *= fade;
   p.x_v0 += p.v_v0 * once;
   p.v_v0 *= fade;
-  for (std::size_t j = 0; j <= law_.size(); ++j) {
+  for (std::size_t j = 0; j < derivatives(); ++j) {
     const double change = above == 0 ? 0 : now.q_c[j] - last.q_c[j] * now.q_v / last.q_v;
     p.x_c[j] += p.v_c[j] * once - way_ * (last.q_c[j] * twice + change * of_log);
     p.v_c[j] = p.v_c[j] * fade - way_ * (last.q_c[j] * once + change * s * fade);
@@ -354,7 +357,7 @@ double Leg::radius_time(double t) {
 }
 
 double Leg::last_speed() {
-  if (way_ < 0 || body_.slope < 0) reach(INFINITY);
+  if (way_ < 0 || body_.slope < 0 || law_.wind() != 0) reach(INFINITY);
   const double v = speed(r_);
   if (end_ == End::constant_speed) return v - above_last_speed(v, rate(v));
   return end_ == End::too_fast ? INFINITY : 0;
@@ -363,7 +366,7 @@ double Leg::last_speed() {
 Leg::Derivatives Leg::stop_time_by_c() {
   reach(INFINITY);
   Derivatives by{};
-  for (std::size_t j = 0; j <= law_.size(); ++j) by[j] = -sums_[2 + j];
+  for (std::size_t j = 0; j < derivatives(); ++j) by[j] = -sums_[2 + j];
   return by;
 }
 

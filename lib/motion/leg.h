@@ -17,7 +17,7 @@ namespace rolling {
 
 /// The law is autonomous: with the deceleration q(u) = -v' (Eq. 12) at the speed u,
 ///   t = int du/|q|,   x = int u du/|q|,
-/// and the derivatives by the coefficients c of the law and by the slope are
+/// and the derivatives by the coefficients c of the law, by the slope and by the wind are
 ///   u_c = -q G,   x_c = u G - U,   G = int q_c/(q |q|) du,   U = int u q_c/(q |q|) du.
 /// The variable of integration is r = |ln(u0/u)|. The integrands are Chebyshev series over panels
 /// of r, whose lengths follow from the last terms of the series, so that they suit the scale of any
@@ -32,18 +32,18 @@ namespace rolling {
 /// panels are needed (Eq. 13 is their inverse).
 class Leg {
  public:
-  static constexpr std::size_t most = LawForm::most + 1;
+  static constexpr std::size_t most = LawForm::most + 2;
   static constexpr double negligible = 1e-6;     ///< speeds below it, as a part of v0, are rest
-  using Derivatives = std::array<double, most>;  ///< by the coefficients, then by the slope
+  using Derivatives = std::array<double, most>;  ///< by the coefficients, the slope, the wind
   struct Point {
     double v, x;
     double a;  ///< dv/dt
     double v_v0, x_v0;
     Derivatives v_c, x_c;
   };
-  /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion; from 0 it ends at
-  /// once. Throws Error if the law is not defined there.
-  Leg(const Body&, Geometry, Law, double v0);
+  /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion, in the wind
+  /// body.wind against it; from 0 it ends at once. Throws Error if the law is not defined there.
+  Leg(const Body&, Geometry, const Law&, double v0);
 
   /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its
   /// derivatives are 0. Throws Error where the speed has grown by a factor e^345.
@@ -103,6 +103,8 @@ class Leg {
   Rate rate(double u) const;
   double net(double u) const;
   double speed(double r) const;
+  /// The number of derivatives: the wind has one if the air slows the body.
+  std::size_t derivatives() const { return law_.size() + 1 + law_.has_drag(); }
   double next_break() const;
   void end_at_last_speed();
   void add_panel();

@@ -23,6 +23,7 @@ const Body& checked(const Body& body, const Law& law, double v0) {
   check("gravity g", body.g, true);
   check("the initial velocity v0", v0, false);
   if (!std::isfinite(body.slope)) fail("the slope {} must be finite", body.slope);
+  if (!std::isfinite(body.wind)) fail("the wind {} must be finite", body.wind);
   law.check_speed(v0);
   return body;
 }
@@ -33,9 +34,11 @@ void check_roll(const Body& body, const Law& law, double v0) {
   checked(body, law, v0);
   const auto power = law.power();
   if (!power) {
-    double largest = law.at(v0).D;
-    for (const double v : law.corners())
-      if (v < v0) largest = std::max(largest, law.at(v).D);
+    const Law blown = law.in_wind(body.wind);
+    double largest = std::abs(blown.at(v0).D);
+    if (blown.wind() != 0) largest = std::max(largest, std::abs(blown.at_rest()));
+    for (const double v : blown.corners())
+      if (v < v0) largest = std::max(largest, blown.at(v).D);
     return check_shift(body, largest);
   }
   if (!(power->a > 0 && std::isfinite(power->a)))
@@ -47,40 +50,45 @@ void check_roll(const Body& body, const Law& law, double v0) {
 }
 
 Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0)
-    : Leg(checked(body, law, v0), geometry, law, v0),
-      turns_((v0 == 0 || (body.slope > 0 && slows())) && rolls_down()) {}
+    : Leg(checked(body, law, v0), geometry, law, v0), way_on_(v0 == 0 && holds(-1) ? 1 : -1),
+      turns_((v0 == 0 || slows()) && !holds(way_on_)) {}
 
-/// True if the mat does not hold the body at rest, nor at a speed that counts as rest.
-bool Roll::rolls_down() const {
-  const double lift = body_.R * std::abs(body_.slope);
-  const auto holds = [&](double D) {
-    if (geometry_ == Geometry::approximate) return D >= lift;
-    return D >= body_.R || D >= arm_factor(body_, geometry_, D) * lift;
-  };
-  return lift > 0 && !holds(law_.at_rest()) && !holds(law_.at(Leg::negligible * v0_).D);
+/// Slope and wind as a body sees them that rolls in this direction.
+Body Roll::from_rest(double way) const {
+  Body body = body_;
+  body.slope *= way;
+  body.wind *= way;
+  return body;
 }
 
-/// The way down from rest, or from a speed that is not seen.
+/// True if the mat holds the body at rest, or at a speed that counts as rest, so that it does not
+/// begin to roll in this direction.
+bool Roll::holds(double way) const {
+  const Body body = from_rest(way);
+  const Law law = law_.in_wind(body.wind);
+  const auto balances = [&](double D) {
+    if (geometry_ == Geometry::exact && D >= body.R) return true;
+    return D + arm_factor(body, geometry_, D) * body.R * body.slope >= 0;
+  };
+  return balances(law.at_rest()) || balances(law.at(Leg::negligible * v0_).D);
+}
+
+/// The way on from rest, or from a speed that is not seen.
 Leg& Roll::back() {
   if (!back_) {
-    Body down = body_;
-    down.slope = -std::abs(body_.slope);
     const double first = first_part * (v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R));
-    back_.emplace(down, geometry_, law_, first);
+    back_.emplace(from_rest(way_on_), geometry_, law_, first);
   }
   return *back_;
 }
 
-double Roll::last_speed() {
-  if (turns_) return (body_.slope > 0 ? -1 : 1) * back().last_speed();
-  return Leg::last_speed();
-}
+double Roll::last_speed() { return turns_ ? way_on_ * back().last_speed() : Leg::last_speed(); }
 
 // With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
 // x = X - way(t - T).
 Roll::Point Roll::at(double t) {
   if (!turns_ || stop_until(t) > t) return Leg::at(t);
-  const double since = t - stop_time(), sign = body_.slope > 0 ? -1 : 1;
+  const double since = t - stop_time(), sign = way_on_;
   const Point turn = Leg::at(stop_time());
   const Derivatives T_c = stop_time_by_c();
   const double T_v0 = stop_time_by_v0();
@@ -89,8 +97,8 @@ Roll::Point Roll::at(double t) {
   p.a = sign * q.a;
   p.v = since > 0 ? sign * q.v : 0, p.x = turn.x + sign * q.x;
   p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
-  for (std::size_t j = 0; j <= law_.size(); ++j) {
-    const double by = j < law_.size() || body_.slope < 0 ? 1 : -1;  // its slope is -|slope|
+  for (std::size_t j = 0; j < most; ++j) {
+    const double by = j < law_.size() ? 1 : sign;  // slope and wind as it sees them
     p.v_c[j] = sign * (by * q.v_c[j] - q.a * T_c[j]);
     p.x_c[j] = turn.x_c[j] + sign * (by * q.x_c[j] - q.v * T_c[j]);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The free roll under any law D(v), on a mat of any slope and in either geometry, as a function of
-// time, with its derivatives by the coefficients of the law, by the slope and by v0.
+// time, with its derivatives by the coefficients of the law, by the slope, by the wind and by v0.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,16 @@ void check_roll(const Body&, const Law&, double v0);
 /// A roll is one leg, or two. Where the mat rises along the motion more than the law can hold at
 /// rest, A R S > D(0), the body rolls back from its turning point: D always acts against the
 /// motion. If the way back would not be faster than 1e-6 v0, it counts as rest. From v0 = 0 a body
-/// that the mat does not hold begins to roll down.
+/// that the mat does not hold begins to roll down. A head wind may blow a body back, too, which is
+/// then in a tail wind.
 ///
 /// In the exact geometry D may grow to R as the body slows down. There it stays, so that A = 0 and
 /// v' = -g cos(theta)/K (Eq. 12) down to the stop; with A = 1, Eq. 12 holds for any D.
 ///
 /// v and x are within 1e-13 of v0 and of the way, derivatives within 1e-9, but within 2e-8 where
-/// the speed comes near to its last one. x and v0 count along the motion, so the slope of the Body
-/// is the one that this roll sees: whoever describes a roll towards falling x by v0 > 0 turns the
-/// sign of the slope.
+/// the speed comes near to its last one. x and v0 count along the motion, so the slope and the wind
+/// of the Body are those that this roll sees: whoever describes a roll towards falling x by v0 > 0
+/// turns their signs.
 class Roll : Leg {
  public:
   using Leg::most, Leg::Point, Leg::Derivatives;
@@ -38,23 +39,27 @@ class Roll : Leg {
   Roll(const Body&, Geometry, const Law&, double v0);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
-  /// the coefficients of the law and, behind them, by the slope. Once the body rests, v is 0 with
-  /// derivatives 0.
+  /// the coefficients of the law and, behind them, by the slope and the wind. Once the body rests,
+  /// v is 0 with derivatives 0.
   Point at(double t);
 
   /// True if the body rolls back after stop_time().
   bool turns() const { return turns_; }
+  /// The direction in which it rolls then: -1, but 1 for one that begins at rest and rolls forward.
+  double way_on() const { return way_on_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
   double last_speed();
 
   const Body& body() const { return body_; }
-  const Law& law() const { return law_; }
+  const Law& law() const { return law_; }  ///< in the wind
 
  private:
-  bool rolls_down() const;
+  Body from_rest(double way) const;
+  bool holds(double way) const;
   Leg& back();
 
   std::optional<Leg> back_;
+  double way_on_;
   bool turns_;
 };
 

@@ -47,11 +47,11 @@ OdeSystem equations_of_law(const Body& body, Geometry geometry, const Law& law, 
 
 IntegratedRoll::End IntegratedRoll::end_of(const Scene& s) {
   Roll roll(s.body, s.geometry, s.law, s.v0);
-  if (!std::isfinite(roll.stop_time())) return {0, false, false};
+  if (!std::isfinite(roll.stop_time())) return {0, false, roll.turns(), roll.way_on()};
   const auto power = s.law.power();
   const double b = power ? std::min(power->b, 0.0) : 0, rest = roll.rest_speed(),
                floor = std::pow(last_part, 1 / (1 - b)) * unit_of_speed(s);
-  return {std::max(floor, rest), rest > floor, roll.turns()};
+  return {std::max(floor, rest), rest > floor, roll.turns(), roll.way_on()};
 }
 
 // From v0 = 0 the way back begins at once. The sign of a v that is 0 tells its direction.
@@ -59,12 +59,13 @@ IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
                                unsigned long most_steps)
     : SolvedRoll(
           s, most_steps,
-          [=, floor = end_of(s).floor] {
-  return Integrator(equations_of_law(s.body, s.geometry, s.law, floor), stepper,
+          [=, end = end_of(s)] {
+  return Integrator(equations_of_law(s.body, s.geometry, s.law.in_wind(s.body.wind), end.floor),
+                    stepper,
                     {rounding, rtol * last_part, rtol, {unit_of_speed(s), unit_of_speed(s)}},
-                    {s.x0, s.v0 > 0 ? s.v0 : -std::copysign(0, s.body.slope)});
+                    {s.x0, s.v0 > 0 ? s.v0 : std::copysign(0, end.way_on)});
           }),
-law_(s.law), end_(end_of(s)) {
+law_(s.law.in_wind(s.body.wind)), end_(end_of(s)) {
   turns_ = end_.turns, at_rest_ = s.v0 == 0 && !turns_;
   if (s.v0 == 0) stop_time_ = 0;
   else if (end_.floor == 0) stop_time_ = INFINITY;
@@ -86,7 +87,7 @@ bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
   const double v = ode.state()[1], D = law_(v), a = trial_acceleration(body_, geometry_, D),
                q = law_.at(v).by_log_v * trial_acceleration_slope(body_, geometry_, D) / a;
   ode.restart(ode.time() + (end_.creeps ? 0 : v / ((1 - q) * -a)),
-              {ode.state()[0], -std::copysign(0, body_.slope)});
+              {ode.state()[0], std::copysign(0, end_.way_on)});
   return true;
 }
 

@@ -105,6 +105,7 @@ class IntegratedRoll final : public SolvedRoll {
     double floor;  // 0: never
     bool creeps;   // at the floor, which counts as rest
     bool turns;
+    double way_on;  // then
   };
   static End end_of(const Scene&);
   bool advance(Course&, double t, unsigned long steps) override;

@@ -111,7 +111,7 @@ TEST_CASE("law file: the standard uncertainty of D at a speed, from a row", "[cl
     const double part[]{2e-5, 3e-5 * std::pow(v, 1.5), 5e-5 * std::pow(v, 1.5) * std::log(v)};
     const double variance = part[0] * part[0] + part[1] * part[1] + part[2] * part[2] -
                             1.2 * part[0] * part[1] + part[0] * part[2] - 1.6 * part[1] * part[2];
-    CHECK(both.file.sigma(v) == Approx(std::sqrt(variance)).epsilon(1e-6));
+    CHECK(both.file().sigma(v) == Approx(std::sqrt(variance)).epsilon(1e-6));
   }
   const std::string bare = "a b\n2e-3 0\n";
   CHECK(std::isnan(law_of(bare).file().sigma(1)));

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "unit/catch.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -60,6 +61,38 @@ TEST_CASE("Roll: derivatives are limits of differences for every law", "[law]") 
         CHECK(p.x_c[j] == Approx((b.x - a.x) / (2 * h)).epsilon(1e-8).margin(1e-9));
       }
   }
+}
+
+// Also where the air comes to rest beside the body, and where a head wind blows it back.
+TEST_CASE("Roll: the derivatives in a wind are limits of differences", "[law]") {
+  constexpr double h = 1e-5;
+  for (const std::size_t law : {3, 4})
+    for (const double wind : {0.0, 0.4, -0.5, 1.5})
+      for (const double slope : {0.0, 0.02})
+        for (const double t : {0.3, 1.3, 4.0}) {
+          const double c[]{0.2, law == 4 ? 0.3 : 0.15, 0.3};
+          const auto at = [&](std::array<double, 6> q) {
+            const Body body{1, 1, 0, 1, slope + q[4], 0, 0, 0, 0, wind + q[5]};
+            const double moved[]{c[0] + q[1], c[1] + q[2], c[2] + q[3]};
+            return Roll(body, Geometry::approximate, Law(laws()[law], moved), 1 + q[0]).at(t);
+          };
+          const std::size_t size = laws()[law].coefficients.size();
+          const Roll::Point p = at({});
+          for (std::size_t j = 0; j < 6; ++j) {
+            if (j > size && j < 4) continue;
+            std::array<double, 6> q{};
+            q[j] = h;
+            const Roll::Point more = at(q);
+            q[j] = -h;
+            const Roll::Point less = at(q);
+            const std::size_t i = j < 4 ? j - 1 : size + j - 4;
+            CAPTURE(law, wind, slope, t, j);
+            CHECK((j == 0 ? p.v_v0 : p.v_c[i]) ==
+                  Approx((more.v - less.v) / (2 * h)).epsilon(1e-7).margin(1e-8));
+            CHECK((j == 0 ? p.x_v0 : p.x_c[i]) ==
+                  Approx((more.x - less.x) / (2 * h)).epsilon(1e-7).margin(1e-8));
+          }
+        }
 }
 
 TEST_CASE("Roll: asked for in any order, it is as where it is asked once", "[law]") {
