@@ -6,7 +6,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <sstream>
+#include <optional>
 #include <utility>
 
 #include "base/version.h"
@@ -23,14 +23,56 @@ constexpr std::string_view keys[] = {"mass",  "radius",      "shape-factor", "gr
                                      "slope", "coefficient", "exponent",     "exact",
                                      "v0",    "x0",          "memory",       "damping"};
 
-/// What a scene file assigns, as CLI11 reads TOML.
-std::vector<CLI::ConfigItem> read_scene(const std::string& file) {
+/// A line of a scene: a key and its value.
+struct Assignment {
+  std::string key, value;
+  std::size_t line;  ///< its number in the file
+};
+
+/// The value of a key, without a comment behind it: a number, true or false, or what stands in
+/// quotes. Nothing for any other text: an array, a date, or a quote that is not closed.
+std::optional<std::string_view> read_value(std::string_view text) {
+  if (text.starts_with('"') || text.starts_with('\'')) {
+    const auto close = text.find(text.front(), 1);
+    if (close == std::string_view::npos) return {};
+    const std::string_view behind = trim(text.substr(close + 1));
+    if (!behind.empty() && behind.front() != '#') return {};
+    return text.substr(1, close - 1);
+  }
+  const std::string_view value = trim(text.substr(0, text.find('#')));
+  if (!is_number(value) && value != "true" && value != "false") return {};
+  return value;
+}
+
+/// What a scene file assigns. It is TOML of a flat kind, and is read here: what CLI11 makes of
+/// other TOML differs from version to version.
+std::vector<Assignment> read_scene(const std::string& file) {
   Lines lines(file);
   lines.separate_by('\0');
-  std::string text;
-  while (lines.next()) (text += lines.text()) += '\n';
-  std::istringstream scene(text);
-  return CLI::ConfigTOML().from_config(scene);
+  std::vector<Assignment> scene;
+  while (lines.next()) {
+    const std::string_view text = trim(lines.text());
+    if (text.empty() || text.front() == '#') continue;
+    const auto equals = text.find('=');
+    const auto value =
+        equals == std::string_view::npos ? std::nullopt : read_value(trim(text.substr(equals + 1)));
+    if (!value)
+      fail(
+          "{}:{}: '{}' is not KEY = VALUE with a number (decimal point, no unit), true, false, or "
+          "a text in quotes",
+          file, lines.number(), shown(text));
+    scene.push_back(
+        {std::string(trim(text.substr(0, equals))), std::string(*value), lines.number()});
+  }
+  return scene;
+}
+
+/// CLI11 takes an operand in brackets for a list of operands. This mark in front of an argument,
+/// which no argument contains, makes it one word.
+constexpr char one_word = '\0';
+
+std::string without_mark(const std::string& argument) {
+  return argument.substr(argument.starts_with(one_word) ? 1 : 0);
 }
 
 /// "mass" of "-m,--mass".
@@ -90,7 +132,7 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
                Values values) {
   CLI::callback_t take = [names, set = std::move(set)](const std::vector<std::string>& texts) {
     try {
-      for (const std::string& text : texts) set(text);
+      for (const std::string& text : texts) set(without_mark(text));
     } catch (const Error& error) {
       fail("{}: {}", names, error.what());
     }
@@ -155,8 +197,12 @@ bool Tool::given(double Body::*number) const {
 }
 
 std::string Tool::parse(int argc, const char* const* argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  for (std::string& argument : arguments)
+    if (argument.starts_with('[')) argument.insert(argument.begin(), one_word);
+  std::ranges::reverse(arguments);  // as CLI11 wants them
   try {
-    app_->parse(argc, argv);
+    app_->parse(std::move(arguments));
     return {};
   } catch (const CLI::CallForHelp&) {
     app_->name(name_)->footer("In full: man " + name_ + ". A tutorial: man rolling.");
@@ -164,7 +210,8 @@ std::string Tool::parse(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     return fmt::format("{} (rolling) {} (GSL {})\n", name_, version(), version_of_gsl());
   } catch (const CLI::ExtrasError&) {
-    fail("no such option or operand: {} (see --help)", shown(app_->remaining().front()));
+    fail("no such option or operand: {} (see --help)",
+         shown(without_mark(app_->remaining().front())));
   } catch (const CLI::ParseError& error) {
     fail("{} (see --help)", error.what());
   }
@@ -172,17 +219,16 @@ std::string Tool::parse(int argc, const char* const* argv) {
 
 bool Tool::take_scene() {
   if (scene_file_.empty()) return false;
-  for (const CLI::ConfigItem& item : read_scene(scene_file_)) try {
-      if (!item.parents.empty() || std::ranges::count(keys, item.name) == 0)
-        fail("a scene has no '{}'; it has mass, radius, shape-factor, ...", shown(item.fullname()));
-      if (item.inputs.size() != 1) fail("{} is not one value", item.name);
-      CLI::Option* const option = app_->get_option_no_throw("--" + item.name);
-      if (!option || on_command_line(item.name)) continue;
-      if (!in_scene_.insert(item.name).second) fail("{} is there twice", item.name);
-      option->add_result(item.inputs.front());
+  for (const auto& [key, value, line] : read_scene(scene_file_)) try {
+      if (std::ranges::count(keys, key) == 0)
+        fail("a scene has no '{}'; it has mass, radius, shape-factor, ...", shown(key));
+      CLI::Option* const option = app_->get_option_no_throw("--" + key);
+      if (!option || on_command_line(key)) continue;
+      if (!in_scene_.insert(key).second) fail("{} is there twice", key);
+      option->add_result(value);
       option->run_callback();
     } catch (const Error& error) {
-      fail("{}: {}", scene_file_, error.what());
+      fail("{}:{}: {}", scene_file_, line, error.what());
     }
   return scene_file_ == "-";
 }
