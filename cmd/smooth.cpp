@@ -27,10 +27,12 @@ void require_motion(const SelectionOptions& select, const std::string& name) {
 }
 
 /// The `##` lines.
-std::string history(const std::string& column, const SelectionOptions& selected,
-                    const SignalOptions& smoothed) {
+std::string history(const std::string& column, EqualTimes equal_times,
+                    const SelectionOptions& selected, const SignalOptions& smoothed) {
   std::string lines;
   const auto add = [&](const std::string& line) { add_item(lines, "smooth " + line, "\n## "); };
+  if (equal_times == EqualTimes::first) add("t equal-times first");
+  if (equal_times == EqualTimes::mean) add("t equal-times mean");
   if (std::isfinite(selected.from)) add(fmt::format("t from {}", selected.from));
   if (std::isfinite(selected.to)) add(fmt::format("t to {}", selected.to));
   if (selected.outliers > 0) add(fmt::format("{} outliers {}", column, selected.outliers));
@@ -107,6 +109,13 @@ void add_options(Tool& tool, SelectionOptions& select) {
   tool.flag("--rolls", select.rolls, "keep every free roll, each as a run of its own");
   tool.number("--from", select.from, any_number, "leave out the rows before this time [s]");
   tool.number("--to", select.to, any_number, "leave out the rows after this time [s]");
+  tool.equal_times();
+}
+
+void refuse_pairs(const Tool& tool, const SelectionOptions& select, const SignalOptions& options) {
+  if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
+  if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
+  if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
 }
 
 }  // namespace
@@ -132,13 +141,12 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
-    if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
+    refuse_pairs(tool, select, options);
     select.width = options.width;
-    const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method"),
-               all = select.all(), selects = !all && !smooths;  // and changes no number
+    const bool all = select.all();
+    const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method");
+    const bool selects = !smooths && (!all || tool.given("equal-times"));  // and changes no number
     if (selects) options.width.samples = 1;
-    if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need("t");
@@ -147,7 +155,7 @@ int main(int argc, char** argv) {
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     require_motion(select, name);
-    Filter filter(in, tool.out, history(name, select, options));
+    Filter filter(in, tool.out, history(name, in.equal_times(), select, options));
     filter.replace(y);
     double first = INFINITY, last = -INFINITY;
     filter.say_why_none([&] {

@@ -96,6 +96,10 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
   const bool from = method == "from";
   const bool to = method == "to";
   const bool outliers = method == "outliers";
+  if (!derivative && method == "equal-times") {
+    believe(words.size() == 4 && (words[3] == "first" || words[3] == "mean"));
+    return true;
+  }
   if (!derivative && (coast || from || to || outliers)) {
     double number;
     believe(coast ? words.size() == 3 : words.size() == 4 && parse_number(words[3], number));

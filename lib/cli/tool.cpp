@@ -30,6 +30,12 @@ void Tool::input() {
   flag("--strict", input_.strict, "a missing reading is an error");
 }
 
+void Tool::equal_times() {
+  choice<EqualTimes>("--equal-times", input_.equal_times,
+                     {{"first", EqualTimes::first}, {"mean", EqualTimes::mean}},
+                     "make one row of the rows of one time: the first of them, or their mean");
+}
+
 void Tool::output() {
   count("--digits", out.digits,
         {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},

@@ -139,8 +139,9 @@ class Tool {
                      {{"false", Geometry::approximate}, {"true", Geometry::exact}},
                      "keep A = sqrt(1 - D^2/R^2) (the paper sets A = 1)", Values::none);
   }
-  void scene();  ///< --scene, whose keys are listed in tool_options.cpp
-  void input();  ///< operands, --use --run --strict
+  void scene();        ///< --scene, whose keys are listed in tool_options.cpp
+  void input();        ///< operands, --use --run --strict
+  void equal_times();  ///< --equal-times
   /// Whether --use says which column this quantity is.
   bool uses(const std::string& quantity) const;
   void output();  ///< --digits -u

@@ -64,6 +64,28 @@ bool Filter::next_run() {
 }
 
 bool Filter::next() {
+  if (!std::exchange(ahead_, false) && !next_row()) return false;
+  if (in_.equal_times() != EqualTimes::refused) join_rows();
+  return true;
+}
+
+/// Joins the rows of the time of the present one with it.
+void Filter::join_rows() {
+  joined_ = {in_.time(), in_[replaced_]};
+  double sum = joined_->value;
+  for (std::size_t count = 1; next_row(); ++count) {
+    ahead_ = in_.time() != joined_->time;
+    if (ahead_) return;
+    set_end(texts_, texts_.end() - lines_.back().size);
+    lines_.pop_back();
+    --read_;
+    sum += in_[replaced_];
+    if (in_.equal_times() == EqualTimes::mean)
+      joined_->value = sum / static_cast<double>(count + 1);
+  }
+}
+
+bool Filter::next_row() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <span>
 #include <string>
@@ -50,7 +51,12 @@ class Filter {
   /// Goes to the next run or row, as Reader does. The row waits for its numbers.
   bool next_run();
   bool next();
-  double operator[](std::size_t slot) const { return in_[slot]; }
+  /// Of rows of one time that are joined: the number of the first, or the mean of the column that
+  /// is replaced.
+  double operator[](std::size_t slot) const {
+    if (!joined_) return in_[slot];
+    return slot == replaced_ ? joined_->value : joined_->time;
+  }
   /// The row with the index i in this run (from 0) begins a run of its own in the output, of this
   /// name. The rows before it have been dropped or wait for numbers; it has not been written.
   void split(std::size_t i, const std::string& name);
@@ -77,6 +83,13 @@ class Filter {
     Kind kind;
   };
 
+  /// Rows of one time that have become one.
+  struct Joined {
+    double time, value;  // of the column that is replaced
+  };
+
+  bool next_row();
+  void join_rows();
   std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   std::vector<Column> columns() const;
   void hold(std::string_view text, Kind);
@@ -107,6 +120,8 @@ class Filter {
   std::string names_;
   std::vector<std::string> history_of_run_;  // what its parts share
   std::string names_of_run_;
+  std::optional<Joined> joined_;
+  bool ahead_ = false;  // the row behind the joined ones has been read
   bool any_row_ = false;
   std::function<std::string()> why_none_;
   bool writing_ = false;  // write_rows() is at work; stays true if it has failed

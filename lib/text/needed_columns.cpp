@@ -6,6 +6,7 @@
 
 #include "base/enumeration.h"
 #include "base/error.h"
+#include "text/clock.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -174,6 +175,7 @@ void NeededColumns::resolve(Needed& needed) {
   if (!found && needed.kind != Kind::wanted) refuse(needed.name);
   needed.column = found.value_or(no_column);
   needed.to_si = {};
+  needed.clock.clear();
   if (!found) return;
   if (needed.name == "t") refuse_other_times(*found);
   const bool first = needed.quantity.empty();
@@ -202,7 +204,7 @@ void NeededColumns::assume(std::size_t at, std::string_view quantity, std::strin
 /// The conversion of a column to the SI unit of the quantity that it serves as, or to that in which
 /// it is needed as it is. The unit of a quantity may stand at the end of its name; a column without
 /// one is in SI units, which is noted where its name does not say so. Refuses any other unit.
-Conversion NeededColumns::conversion(const Needed& needed) {
+Conversion NeededColumns::conversion(Needed& needed) {
   Column meant = as_read_[needed.column];
   const bool as_is = needed.kind == Kind::as_is;
   const std::string& quantity = needed.quantity;
@@ -217,6 +219,8 @@ Conversion NeededColumns::conversion(const Needed& needed) {
                            ? ""
                            : fmt::format(" although line {} says {}", said->second.line,
                                          shown(said->second.unit))));
+  if (known && quantity == "t" && is_clock_unit(meant.unit)) needed.clock = lower(meant.unit);
+  if (!needed.clock.empty()) return {};
   const std::string_view si = known ? known->si : needed.unit;
   if (meant.unit.empty() || meant.unit == si) return {};
   if (const auto found = read_unit(meant.unit); found && si_unit(found->quantity) == si)

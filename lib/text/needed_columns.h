@@ -29,6 +29,7 @@ class NeededColumns {
     std::string unit{};
     std::size_t column = no_column;
     Conversion to_si{};
+    std::string clock{};  ///< of a time: its unit, if that is one of a clock
   };
 
   /// `use`: texts of the form NAME=COLUMN or NAME=COLUMN[UNIT]. `has_use`: messages may name the
@@ -74,7 +75,7 @@ class NeededColumns {
   std::string list() const;
   void resolve(Needed&);
   void assume(std::size_t column, std::string_view quantity, std::string_view what);
-  Conversion conversion(const Needed&);
+  Conversion conversion(Needed&);
   void name_columns();
 
   // By quantity; the name is the number or the name of a column, with the run that it carries.

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "text/bytes.h"
+#include "text/clock.h"
 #include "text/dialect.h"
 #include "text/head.h"
 #include "text/lines.h"
@@ -19,12 +20,16 @@
 
 namespace rolling {
 
+/// Rows of one time are refused, or become one row (see Filter): the first, or the mean.
+enum class EqualTimes { refused, first, mean };
+
 struct ReaderOptions {
   std::vector<std::string> files = {};  ///< operands, in order; empty for standard input
   std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
   std::optional<int> run = {};          ///< the only run to be read
   bool strict = false;                  ///< a missing reading is an error
   bool has_use = true;                  ///< the option --use applies to these files
+  EqualTimes equal_times = {};          ///< what becomes of rows of one time
 };
 
 class Reader {
@@ -75,6 +80,9 @@ class Reader {
   bool next();
   /// The number in a needed column [SI].
   double operator[](std::size_t slot) const { return values_[slot]; }
+  EqualTimes equal_times() const { return options_.equal_times; }
+  /// The time of the present row, if one is needed.
+  double time() const { return last_time_; }
   /// The text of a column of the present row.
   std::string_view text(std::size_t column) const { return fields_[column].text; }
 
@@ -82,7 +90,7 @@ class Reader {
   /// Appends the present row as it goes out, tab-separated, without the text of a column;
   /// returns where in it that column stands, or its length if there is none.
   std::size_t append_text(Bytes& to, std::size_t column = no_column) {
-    if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_)
+    if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_ || reads_clock_)
       return append_made(to, column);
     const std::string_view line = lines_->text();
     const std::string_view field =
@@ -130,8 +138,10 @@ class Reader {
   std::span<const Field> split();
   bool take_fields();
   bool take_row();
-  double read(const NeededColumns::Needed&) const;
+  double read(const NeededColumns::Needed&);
+  double read_text(const NeededColumns::Needed&);
   void check_time(const NeededColumns::Needed&, double t);
+  void note_jump(const NeededColumns::Needed&, double t);
   std::size_t append_made(Bytes& to, std::size_t column);
   [[noreturn]] void refuse(const NeededColumns::Needed&, std::string_view why) const;
   std::string here() const;
@@ -161,7 +171,11 @@ class Reader {
   std::vector<Field> changed_fields_;
   bool fields_changed_ = false, large_time_ = false;
   std::size_t time_slot_ = no_column;
-  double last_time_ = 0;  // NaN before the first row of a run
+  Clock clock_;                           // of this run
+  bool reads_clock_ = false;              // its times are read by it
+  double last_time_ = 0, last_step_ = 0;  // NaN before the first row of a run, and the second
+  std::string jump_;                      // of times that may be digits of a clock
+  std::size_t equal_times_ = 0;           // rows that have the time of the row before
   std::size_t left_out_ = 0;
 };
 

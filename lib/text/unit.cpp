@@ -46,7 +46,7 @@ constexpr Prefix prefixes[] = {{"k", "kilo", {1e3, 1}},  {"d", "deci", {1, 1e1}}
 
 constexpr std::string_view lengths = "m, mm, cm, dm, um, km, in, ft";
 constexpr KnownQuantity quantities[] = {
-    {"t", "s", "s, sec, ms, us, min, h"},
+    {"t", "s", "s, sec, ms, us, ns, min, h"},
     {"x", "m", lengths},
     {"v", "m/s", "m/s, mm/s, cm/s, km/h, mph, ft/s"},
     {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2", "differentiate"},

@@ -33,7 +33,7 @@ declare -A begin=(
   [energy-ledger]='energy-ledger -m 1 -K 0.5 -R 0.04 roll'
 )
 declare -A options=(
-  [smooth]="-c x|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--rolls|--from 3|--to 4|--use t=x|$input"
+  [smooth]="-c x|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--rolls|--from 3|--to 4|--equal-times mean|--use t=x|$input"
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
   [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"

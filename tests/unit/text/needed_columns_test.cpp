@@ -101,7 +101,8 @@ TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI
   const Texts file = {"t (moments)", "v (bananas)"};
   CHECK(output(file, {"v=2[m/s]"}) ==
         "FILE: column 't[moments]' cannot serve as t: its unit 'moments' is not one of those known "
-        "(s, sec, ms, us, min, h); convert it first (rolling-recipes(7)) or say --use 't=1[UNIT]'");
+        "(s, sec, ms, us, ns, min, h); convert it first (rolling-recipes(7)) or say --use "
+        "'t=1[UNIT]'");
   CHECK(output(file).ends_with("or say --use 't=1[UNIT]'"));
   CHECK(output(file, {"t=1[s]", "v=2[m/s]"}) == "t[s] v[m/s]");
 }

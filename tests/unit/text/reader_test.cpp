@@ -7,8 +7,7 @@ using namespace rolling;
 
 /// What to do about a number with signs that are none of it.
 /// What the message of a text that is no number ends with.
-static const std::string digits_alone =
-                             "; write it with digits and a decimal point alone, a time in seconds",
+static const std::string digits_alone = "; write it with digits and a decimal point alone",
                          hint =
                              "; write NaN for a missing reading, # before a line that is no row, "
                              "and a blank line before "
@@ -135,7 +134,7 @@ TEST_CASE("reader: a row of blank cells is a run break, whatever separates them"
 
 TEST_CASE("reader: what is no number is refused with what to do about it", "[text]") {
   CHECK(rows({"t,v\n0,1\n10:15:00.5,2\n"}) ==
-        "FILE:3: field 1 (t): '10:15:00.5' is not a number" + digits_alone);
+        "FILE:3: field 1 (t): '10:15:00.5' is of another form than the times before it");
   CHECK(rows({"t,v\n0,1\n1 5,2\n"}) == "FILE:3: field 1 (t): '1 5' is not a number" + digits_alone);
   CHECK(rows({"t,v\n0,1\n1 x,2\n"}) == "FILE:3: field 1 (t): '1 x' is not a number" + digits_alone);
   for (const char* text : {"t;v\n1 000;2\n",
@@ -269,7 +268,7 @@ TEST_CASE("reader: units are converted, and go out converted", "[text]") {
   CHECK(
       rows({"# t[parsec] v\n0 1\n"}) ==
       "FILE: column 't[parsec]' cannot serve as t: its unit 'parsec' is not one of those known (s, "
-      "sec, ms, us, min, h); convert it first (rolling-recipes(7)) or say --use 't=1[UNIT]'");
+      "sec, ms, us, ns, min, h); convert it first (rolling-recipes(7)) or say --use 't=1[UNIT]'");
   CHECK(rows({"# t[h] v\n1e308 1\n"}) ==
         "FILE:2: field 1 (t): '1e308' is beyond the range of a double in SI units");
 }
