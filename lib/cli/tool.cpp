@@ -25,8 +25,8 @@ void Tool::input() {
   add("--use", "NAME=COLUMN",
       "the column (a name or a number from 1) that serves as t, x, v, a or D",
       append_to(input_.use), Values::many);
-  count("--run", input_.run, whole,
-        "read this run only: by the number in its header, else by its place");
+  text("--run", input_.run, "RUN",
+       "read this run only: by the number or word in its header, else by its place");
   flag("--strict", input_.strict, "a missing reading is an error");
 }
 

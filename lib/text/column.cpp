@@ -41,7 +41,43 @@ std::string take_run(std::string_view& name) {
   return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
 }
 
+/// Where the bracket opens that the last character of a name closes, if it closes one. It may hold
+/// others: `a (m (s/m)^b)`.
+std::size_t begin_of_bracket(std::string_view name) {
+  if (!name.ends_with(')') && !name.ends_with(']')) return std::string_view::npos;
+  const char close = name.back();
+  const char open = close == ')' ? '(' : '[';
+  std::size_t depth = 0;
+  for (std::size_t i = name.size(); i-- > 0;) {
+    if (name[i] == close) ++depth;
+    if (name[i] == open && --depth == 0) return i;
+  }
+  return std::string_view::npos;
+}
+
+/// The unit behind `in` at the end of a name: `Time in ms`. Removes both from the name.
+std::string take_unit_in_words(std::string_view& name) {
+  constexpr std::string_view in = " in ";
+  const auto at = name.rfind(in);
+  if (at == std::string_view::npos || !is_unit(name.substr(at + in.size()))) return {};
+  const std::string unit = plain_unit(trim(name.substr(at + in.size())));
+  name = trim(name.substr(0, at));
+  return unit;
+}
+
+/// Whether all letters are capitals: of a name and of its unit, which then may be one in small
+/// letters, as in `TIME (S)`.
+bool in_capitals(std::string_view text) {
+  return std::ranges::none_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
 }  // namespace
+
+std::string with_underscores(std::string_view name) {
+  std::string text(name);
+  std::ranges::replace_if(text, is_blank, '_');
+  return text;
+}
 
 std::string short_name(std::string_view name) {
   const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
@@ -54,14 +90,14 @@ Column read_column(std::string_view text) {
   const std::string line = replace_all(with_plain_blanks(text),
                                        {{"\xEF\xBC\x88", "("}, {"\xEF\xBC\x89", ")"}, {"\n", " "}});
   std::string_view name = trim(line);
+  column.written = name;
   column.run = take_run(name);
-  const char close = name.empty() ? '\0' : name.back();
-  const auto open = close == ')'   ? name.rfind('(')
-                    : close == ']' ? name.rfind('[')
-                                   : std::string_view::npos;
+  const auto open = begin_of_bracket(name);
   if (open != std::string_view::npos && open > 0) {
     column.unit = plain_unit(trim(name.substr(open + 1, name.size() - open - 2)));
     name = trim(name.substr(0, open));
+  } else {
+    column.unit = take_unit_in_words(name);
   }
   const auto slash = column.unit.empty() ? name.find('/') : std::string_view::npos;
   const std::string quantity = short_name(trim(name.substr(0, slash)));
@@ -73,15 +109,15 @@ Column read_column(std::string_view text) {
   } else {
     column.name = name;
   }
-  std::ranges::replace_if(column.name, is_blank, '_');
+  column.name = with_underscores(column.name);
+  if (in_capitals(line) && !is_unit(column.unit) && unit_of(column.name, lower(column.unit)))
+    column.unit = lower(column.unit);
   return column;
 }
 
 std::string labelled_name(const Column& column) {
-  std::string name = is_number(column.run) ? fmt::format("{}_Run_{}", column.name, column.run)
-                                           : fmt::format("{}:{}", column.run, column.name);
-  std::ranges::replace_if(name, is_blank, '_');
-  return name;
+  return with_underscores(is_number(column.run) ? fmt::format("{}_Run_{}", column.name, column.run)
+                                                : fmt::format("{}:{}", column.run, column.name));
 }
 
 std::string to_text(const Column& column) {

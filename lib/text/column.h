@@ -17,13 +17,22 @@ struct Column {
   std::string unit{};
   /// The number in `Run #2` or `Data Set 1:`, the word in `Latest:`; empty if the name has neither.
   std::string run{};
+  /// The name as it stands in the file, with its unit; empty for a column that no file names.
+  std::string written{};
 
-  bool operator==(const Column&) const = default;
+  /// Whether both mean the same, however they are written.
+  bool operator==(const Column& other) const {
+    return name == other.name && unit == other.unit && run == other.run;
+  }
 };
 
-/// Reads `v[m/s]`, `Velocity (m/s)`, `Time(s)`, `Latest: Time (s)`, `Data Set 1:Time(s)`, `Velocity
-/// (m/s) Run #2`, or a bare name.
+/// Reads `v[m/s]`, `Velocity (m/s)`, `Time(s)`, `Time in s`, `Latest: Time (s)`, `Data Set
+/// 1:Time(s)`, `Velocity (m/s) Run #2`, or a bare name. Of several brackets the last is the unit:
+/// `Speed (OBD)(km/h)`.
 Column read_column(std::string_view text);
+
+/// With an underscore for each blank, as names go out.
+std::string with_underscores(std::string_view name);
 
 /// The name with the label of a run, for a column that is of no run of its own: `Engine:Load`.
 std::string labelled_name(const Column&);

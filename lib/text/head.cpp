@@ -149,7 +149,7 @@ void add_unit(Column& column, std::string_view unit, std::string_view place) {
   const std::string below = bare_unit(unit);
   if (below.empty()) return;
   if (!column.unit.empty() && column.unit != below)
-    fail<InputError>("{}: the column '{}' has another unit in the line below, '{}'", place,
+    fail<InputError>("{}: the column '{}' has another unit in the line of units, '{}'", place,
                      shown(to_text(column)), shown(below));
   column.unit = below;
 }
@@ -310,7 +310,8 @@ class HeadReader {
     return choose_names(above_, columns, !before_, lines_.name());
   }
 
-  /// The names of the columns, empty if there are none here, and the units in a line below them.
+  /// The names of the columns, empty if there are none here, and the units in a line below them or
+  /// in that above them.
   std::vector<std::string> take_names(const UnnamedColumns& columns,
                                       std::vector<std::string>& units) {
     const Comment* const found = find_header(columns);
@@ -321,11 +322,16 @@ class HeadReader {
     head_.line = header.line;
     note_sorted_history();
     auto names = names_of(header, columns);
+    std::size_t first = header.line;  // of the lines that may be one of units
+    for (const Comment& line : above_)
+      if (line.line < header.line && !line.is_history())
+        first = line.text.find(':') == std::string::npos ? line.line : header.line;
     std::erase_if(above_, [&](const Comment& line) {
-      if (line.line <= header.line) return line.line == header.line;
-      auto below = names_of(line, columns);
-      const bool has_units = units.empty() && are_units_of(names, below);
-      if (has_units) units = std::move(below);
+      if (line.line == header.line) return true;
+      if (line.line < first || !units.empty() || line.is_history()) return false;
+      auto fields = names_of(line, columns);
+      const bool has_units = are_units_of(names, fields);
+      if (has_units) units = std::move(fields);
       return has_units;
     });
     fit_end(names, columns);

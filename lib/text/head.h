@@ -71,12 +71,11 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&)
 const Comment* choose_names(std::span<const Comment>, const UnnamedColumns&, bool first,
                             std::string_view file);
 
-/// Whether the fields of the line above the rows are the units of the names in the line above
-/// it, which has as many: none of them is a known name, and two are known units, or one under names
-/// of which one is known.
+/// Whether the fields of a line are the units of as many names in the line above or below it: none
+/// of them is a known name, and two are known units, or one beside names of which one is known.
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields);
 
-/// Gives a column the unit that stands below its name. Refuses one other than that of the name.
+/// Gives a column the unit in a line of units. Refuses one other than that of the name.
 void add_unit(Column&, std::string_view unit, std::string_view place);
 
 struct Head {

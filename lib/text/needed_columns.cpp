@@ -21,6 +21,9 @@ bool says_time(const std::string& name) {
          (name.starts_with("t") && name.find_first_not_of("0123456789._", 1) == std::string::npos);
 }
 
+/// What the unit of the coefficient of a power law has more than that of the law: `m (s/m)^b`.
+constexpr std::string_view of_power_law = " (s/m)^b";
+
 /// The column is to have the name and the unit of the quantity that it serves as.
 bool serves(const NeededColumns::Needed& needed) {
   return needed.column != NeededColumns::no_column && needed.kind != NeededColumns::Kind::as_is;
@@ -38,10 +41,7 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
         !of.unit.empty() || !of.run.empty())
       fail("--use: '{}' is not NAME=COLUMN or NAME=COLUMN[UNIT], with t, x, v, a or D as NAME",
            shown(text));
-    const std::string whole = text.substr(equals + 1);
-    const Column column = read_column(whole);
-    const std::string& name = column.run.empty() ? column.name : whole;
-    if (!use_.emplace(quantity, Column{name, column.unit}).second)
+    if (!use_.emplace(quantity, text.substr(equals + 1)).second)
       fail("--use: '{}' comes after another for {}", shown(text), quantity);
   }
 }
@@ -49,13 +49,14 @@ NeededColumns::NeededColumns(const std::vector<std::string>& use, bool has_use)
 std::vector<std::string> NeededColumns::names_without_use(std::vector<std::string> order) const {
   for (std::size_t i = 0; i < order.size(); ++i)
     if (const auto use = use_.find(order[i]);
-        use != use_.end() && use->second.name != fmt::format("{}", i + 1))
+        use != use_.end() && read_column(use->second).name != fmt::format("{}", i + 1))
       order.resize(i);
   return order;
 }
 
 bool NeededColumns::use_has_numbers() const {
-  return std::ranges::any_of(use_, [](const auto& use) { return is_number(use.second.name); });
+  return std::ranges::any_of(
+      use_, [](const auto& use) { return is_number(read_column(use.second).name); });
 }
 
 void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
@@ -70,15 +71,14 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   for (const auto& [quantity, use] : use_)
     std::ranges::replace(served, quantity, free_name(as_read_, quantity));
   for (const auto& [quantity, use] : use_) {
-    const auto at = find(use.name);
+    const auto at = take_use(use);
     if (!at)
       fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(use.name), shown(use.name), list());
+                       shown(use), shown(use), list());
     if (use_.contains(served[*at]))
       fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
                        served[*at], quantity);
     served[*at] = quantity;
-    if (!use.unit.empty()) as_read_[*at].unit = use.unit;
   }
   quantities_ = std::move(served);
   serve_by_units();
@@ -123,11 +123,36 @@ void NeededColumns::refuse_other_times(std::size_t column) const {
                        shown(to_text(as_read_[other])));
 }
 
+/// The column that --use names, by COLUMN or by COLUMN[UNIT], which then is its unit.
+std::optional<std::size_t> NeededColumns::take_use(const std::string& column) {
+  if (const auto found = written_as(column)) return found;
+  const Column use = read_column(column);
+  const auto found = find(use.run.empty() ? use.name : column);
+  if (found && !use.unit.empty()) as_read_[*found].unit = use.unit;
+  return found;
+}
+
+/// The only column whose name is this text, as it stands in the file or as it is printed.
+std::optional<std::size_t> NeededColumns::written_as(std::string_view name) const {
+  const std::string asked = with_underscores(trim(with_plain_blanks(name)));
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < as_read_.size(); ++i) {
+    const Column& column = as_read_[i];
+    if (asked != with_underscores(column.written) && asked != to_text(column) &&
+        (asked != column.name || is_known(column)))
+      continue;
+    if (found) return {};
+    found = i;
+  }
+  return found;
+}
+
 std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   if (double number; is_whole(name) && parse_number(name, number))
     return number >= 1 && number <= static_cast<double>(as_read_.size())
                ? std::optional(static_cast<std::size_t>(number) - 1)
                : std::nullopt;
+  if (const auto found = written_as(name); found && !known_quantity(name)) return found;
   const Column asked = read_column(name);
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < as_read_.size(); ++i) {
@@ -210,7 +235,11 @@ Conversion NeededColumns::conversion(Needed& needed) {
   const std::string& quantity = needed.quantity;
   const KnownQuantity* const known = as_is ? nullptr : known_quantity(quantity);
   if (!known && !as_is) return {};
-  if (known && named_ && meant.unit.empty()) meant.unit = unit_at_end(quantity, meant.name);
+  // A name that is a unit itself, as `kph`, or ends with one.
+  if (known && named_ && meant.unit.empty())
+    meant.unit = unit_of(quantity, meant.name) ? meant.name : unit_at_end(quantity, meant.name);
+  if (as_is && meant.unit.ends_with(of_power_law))
+    meant.unit.resize(meant.unit.size() - of_power_law.size());
   if (const auto said = said_.find(quantity);
       known && meant.unit.empty() && (!named_ || meant.name != quantity || said != said_.end()))
     assume(needed.column, quantity,

@@ -69,6 +69,8 @@ class NeededColumns {
 
  private:
   [[noreturn]] void refuse(std::string_view name) const;
+  std::optional<std::size_t> written_as(std::string_view name) const;
+  std::optional<std::size_t> take_use(const std::string& column);
   bool may_be_time(std::size_t column) const;
   void serve_by_units();
   void refuse_other_times(std::size_t column) const;
@@ -78,8 +80,7 @@ class NeededColumns {
   Conversion conversion(Needed&);
   void name_columns();
 
-  // By quantity; the name is the number or the name of a column, with the run that it carries.
-  std::map<std::string, Column> use_;
+  std::map<std::string, std::string> use_;  // what --use gives a quantity, as it was typed
   bool has_use_;
   std::vector<Needed> needed_;
   bool converts_ = false;

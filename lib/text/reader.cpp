@@ -22,21 +22,27 @@ Reader::Reader(ReaderOptions options, std::vector<std::string> order)
 
 // Runs: which one is read, its name, and its head.
 
-/// True if the present run is to be read: by the number in its header or at the end of its name,
-/// which is the same behind a tool (2 of `NAME roll 2 of 6`), else by its place.
-bool Reader::asked_for() {
+/// What --run calls the present run: the number in its header or at the end of its name, which is
+/// the same behind a tool (2 of `NAME roll 2 of 6`), else its label beside such numbers (`Latest`),
+/// else its place.
+std::string Reader::called() const {
   std::string number = layout().label;
   if (!is_number(number)) number = run_is_named() ? run_name() : "";
   if (number.find(" roll ") != std::string::npos)
     number.erase(std::min(number.size(), number.rfind(" of ")));
   number.erase(0, number.rfind(' ') + 1);
   const auto is_label = [](const Layout::Run& run) { return is_number(run.label); };
-  if (!is_whole(number)) {
-    if (std::ranges::any_of(head_.layout.runs, is_label)) return false;
-    number = fmt::format("{}", run_);
-  }
-  add_item(runs_, number);
-  return number == fmt::format("{}", *options_.run);
+  if (is_whole(number)) return number;
+  if (std::ranges::any_of(head_.layout.runs, is_label)) return layout().label;
+  return fmt::format("{}", run_);
+}
+
+/// True if the present run is to be read. Its label and its name are known as well.
+bool Reader::asked_for() {
+  const std::string& asked = options_.run;
+  const std::string name = called();
+  add_item(runs_, shown(name));
+  return asked == name || asked == layout().label || (run_is_named() && asked == run_name());
 }
 
 bool Reader::next_run() {
@@ -45,11 +51,11 @@ bool Reader::next_run() {
   bool passed = false;
   while (state_ == State::found || find_run()) {
     state_ = State::in_run;
-    if (!options_.run) return true;
+    if (options_.run.empty()) return true;
     if (asked_for()) {
       if (run_found_)
         fail<InputError>("{}:{}: another run {}; give the file of one of them alone",
-                         lines_->name(), head_.line, *options_.run);
+                         lines_->name(), head_.line, shown(options_.run));
       return run_found_ = true;
     }
     const std::pair kept(left_out_, row_found_);
@@ -71,7 +77,8 @@ bool Reader::find_run() {
     return true;
   }
   state_ = State::ended;
-  if (options_.run && !run_found_) fail("there is no run {} (runs: {})", *options_.run, runs_);
+  if (!options_.run.empty() && !run_found_)
+    fail("there is no run {} (runs: {})", shown(options_.run), runs_);
   if (left_out_ > 0 && !row_found_)
     fail<InputError>("{}no rows: a needed reading is missing in every one",
                      options_.files.size() == 1 ? lines_->name() + ": " : "");

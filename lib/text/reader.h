@@ -26,7 +26,7 @@ enum class EqualTimes { refused, first, mean };
 struct ReaderOptions {
   std::vector<std::string> files = {};  ///< operands, in order; empty for standard input
   std::vector<std::string> use = {};    ///< NAME=COLUMN, or NAME=COLUMN[UNIT]
-  std::optional<int> run = {};          ///< the only run to be read
+  std::string run = {};                 ///< the only run to be read; empty for all
   bool strict = false;                  ///< a missing reading is an error
   bool has_use = true;                  ///< the option --use applies to these files
   EqualTimes equal_times = {};          ///< what becomes of rows of one time
@@ -126,6 +126,7 @@ class Reader {
   bool next_head();
   bool next_file();
   void take_head(Head);
+  std::string called() const;
   bool asked_for();
   void begin_run();
   bool one_of_several() const;
@@ -162,7 +163,7 @@ class Reader {
   std::vector<std::string> comments_, remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last row
-  std::string runs_;             // the numbers of the runs so far, where one is asked for
+  std::string runs_;             // what the runs so far are called, where one is asked for
   bool run_found_ = false, row_found_ = false, file_open_ = false;
 
   // The present row.

@@ -14,6 +14,8 @@
 namespace rolling {
 namespace {
 
+constexpr std::string_view ratio;  // the quantity of a slope
+
 /// A unit with a name of its own, by its spellings. Those of SI units may have a prefix.
 struct NamedUnit {
   Conversion to_si;
@@ -35,6 +37,7 @@ constexpr NamedUnit units[] = {
     {{1397, 3125}, {"mph"}, "v"},
     {{381, 1250}, {"fps"}, "v"},
     {{463, 900}, {"kn", "kt", "kts", "knot", "knots"}, "v"},
+    {{1, 100}, {"%", "percent"}, ratio},
 };
 struct Prefix {
   std::string_view letter, word;
@@ -133,9 +136,12 @@ std::optional<Unit> read_unit(std::string_view text) {
   if (slash == std::string_view::npos)
     return unit.starts_with(in) ? read_unit(unit.substr(in.size())) : std::nullopt;
   const auto above = read_unit(unit.substr(0, slash)), below = read_unit(unit.substr(slash + 1));
-  if (!above || !below || below->quantity != "t") return {};
-  const Conversion &of = above->to_si, &per = below->to_si;
+  if (!above || !below) return {};
+  const Conversion& of = above->to_si;
+  const Conversion& per = below->to_si;
   const Conversion to_si{of.multiply * per.divide, of.divide * per.multiply};
+  if (above->quantity == "x" && below->quantity == "x") return Unit{ratio, to_si};
+  if (below->quantity != "t") return {};
   if (above->quantity == "x") return Unit{"v", to_si};
   if (above->quantity == "v") return Unit{"a", to_si};
   return {};

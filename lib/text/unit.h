@@ -18,7 +18,7 @@ struct Conversion {
   bool operator==(const Conversion&) const = default;
 };
 
-/// A unit of t, x, v or a.
+/// A unit of t, x, v or a, or one of a ratio of lengths, whose quantity has no name.
 struct Unit {
   std::string_view quantity;
   Conversion to_si;
@@ -43,9 +43,9 @@ const KnownQuantity* known_quantity(std::string_view name);
 /// The SI unit of a known quantity; empty for any other name.
 std::string_view si_unit(std::string_view quantity);
 
-/// A unit with a name, or one of length or speed over one of time; nothing if it is none that is
-/// known. Case does not matter in words and in the names of speeds, but in letters: Ms is no
-/// millisecond.
+/// A unit with a name, or one of length or speed over one of time, or of length over length;
+/// nothing if it is none that is known. Case does not matter in words and in the names of speeds,
+/// but in letters: Ms is no millisecond.
 std::optional<Unit> read_unit(std::string_view text);
 
 /// The conversion of a unit to the SI unit of a known quantity; nothing if it is not one of this

@@ -27,7 +27,7 @@ for tool in $tools; do
         # shellcheck disable=SC2086
         attempt ${command[$tool]} "$scratch/good" "$long" ''
         refused "$tool $long ''" "$long: ''" ;;
-      NAME | FILE | COLUMN | NAME,...)
+      NAME | FILE | COLUMN | RUN | NAME,...)
         attempt "$tool" "$long" '' $operand
         refused "$tool $long ''" "$long: ''" ;;
       *)  # a flag: true
@@ -91,8 +91,8 @@ smooth --use v=D --use v=a @|comes after another for v
 smooth --use v= @|is not NAME=COLUMN
 smooth --use =v @|is not NAME=COLUMN
 smooth --from 5 --to 1 @|no rows
-smooth --run 0 @|'0' must be a whole number
-smooth --run 1.5 @|'1.5' must be a whole number
+smooth --run 0 @|there is no run 0 (runs: 1)
+smooth --run 1.5 @|there is no run 1.5 (runs: 1)
 smooth --run 2 @|there is no run 2
 smooth --digits 0 @|from 1 to 17
 smooth --digits 18 @|from 1 to 17

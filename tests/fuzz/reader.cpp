@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ReaderOptions options;
   options.files.assign(1 + choice % 2, file.path());
   options.strict = choice & 2;
-  if (choice & 4) options.run = 1 + (choice >> 6);
+  if (choice & 4) options.run = std::to_string(choice >> 6);
   if (choice & 8) options.use = {"v=2"};
   try {
     Reader in(options, {"t", "v"});

@@ -78,6 +78,55 @@ TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
   CHECK(output({"t", "w"}, {"v=1.5"}) == "FILE: --use v=1.5: there is no column '1.5' among t, w");
 }
 
+TEST_CASE("needed columns: --use takes a name as it stands in the file, or as it is printed",
+          "[text]") {
+  const Texts file = {"Time (s)", "Speed (OBD)(km/h)", "Speed (GPS)(km/h)"};
+  for (const char* name : {"Speed (GPS)(km/h)", "Speed_(GPS)[km/h]", "Speed (GPS)", "Speed_(GPS)",
+                           "Speed (GPS)[km/h]", " Speed (GPS) (km/h)", "3"})
+    CHECK(output(file, {"v=" + std::string(name)}) == "t[s] Speed_(OBD)[km/h] v[m/s]");
+  CHECK(output(file, {"v=Speed (XYZ)"}) ==
+        "FILE: --use v=Speed (XYZ): there is no column 'Speed (XYZ)' among t[s], "
+        "Speed_(OBD)[km/h], Speed_(GPS)[km/h]");
+  // Every column by its own name, whatever else has a name that means the same.
+  const Texts alike = {"Time", "Time (GPS)", "Speed", "Velocity (m/s)", "v_in"};
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    NeededColumns needed({"x=" + alike[i], "D=1"}, true);
+    if (i > 0) {
+      needed.begin_run(columns(alike), true, {}, "FILE");
+      CHECK(needed.find("x") == i);
+    }
+    NeededColumns other({}, true);
+    other.begin_run(columns(alike), true, {}, "FILE");
+    CHECK(other.find(alike[i]) == i);
+  }
+  CHECK(output({"Speed", "Speed", "t"}, {"v=Speed"}).find("are both v") != std::string::npos);
+}
+
+TEST_CASE("needed columns: a name that is a unit is that unit, where --use gives it a quantity",
+          "[text]") {
+  const auto factor = [](const std::string& name, const std::string& quantity) {
+    NeededColumns needed({quantity + "=1"}, true);
+    needed.begin_run(columns({name, "other"}), true, {}, "FILE");
+    needed.add(quantity, Kind::needed);
+    const Conversion to_si = needed.all().front().to_si;
+    CHECK(needed.assumed().empty() != (to_si.multiply == 0));
+    return to_si.multiply / to_si.divide;
+  };
+  CHECK(factor("secs", "t") == 1);
+  CHECK(factor("ms", "t") == 1e-3);
+  CHECK(factor("min", "t") == 60);
+  CHECK(factor("kph", "v") == 5 / 18.);
+  CHECK(factor("KPH", "v") == 5 / 18.);
+  CHECK(factor("mph", "v") == 1397 / 3125.);
+  CHECK(factor("km/h", "v") == 5 / 18.);
+  CHECK(factor("km", "x") == 1000);
+  CHECK(factor("m/s", "v") == 1);
+  NeededColumns needed({"v=1"}, true);
+  needed.begin_run(columns({"ms", "other"}), true, {}, "FILE");
+  needed.add("v", Kind::needed);
+  CHECK(needed.assumed() == "v is column 1, 'ms', taken in m/s");
+}
+
 TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"t[s]", "w[rad/s]"}) ==
         "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");

@@ -84,6 +84,21 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
   CHECK(rows({"## run a 7\n0 1\n\n## run b 1\n0 2\n"}, run(1)) == "0 2");
 }
 
+TEST_CASE("reader: --run takes what the header calls a run, or what it lists", "[text]") {
+  const auto of = [](const char* name) { return ReaderOptions{.run = name}; };
+  const Texts vernier = {"Latest: t,Latest: v,Run 1: t,Run 1: v\n0,1,0,5\n"};
+  CHECK(rows(vernier, of("Latest")) == "0 1");
+  CHECK(rows(vernier, of("1")) == "0 5");
+  CHECK(rows(vernier, of("2")) == "there is no run 2 (runs: Latest, 1)");
+  CHECK(rows({"t Run #0,v Run #0,t Run #1,v Run #1\n0,1,0,5\n"}, of("0")) == "0 1");
+  CHECK(rows({"0 1\n\n0 2\n"}, of("0")) == "there is no run 0 (runs: 1, 2)");
+  CHECK(rows({"Latest: t,Latest: v\n0,1\n"}, of("Latest")) == "0 1");
+  CHECK(rows({"Latest: t,Latest: v\n0,1\n"}, of("1")) == "0 1");
+  CHECK(rows({"## run first try\n0 1\n\n## run second\n0 2\n"}, of("second")) == "0 2");
+  CHECK(rows({"## run a roll 2 of 6\n0 1\n\n## run b\n0 2\n"}, of("a roll 2 of 6")) == "0 1");
+  CHECK(rows({"0 1\n"}, of("x")) == "there is no run x (runs: 1)");
+}
+
 TEST_CASE("reader: --run picks one run and no other", "[text]") {
   const std::string second = ": another run 1; give the file of one of them alone";
   // Where names carry numbers, places do not count beside them.
@@ -156,7 +171,7 @@ TEST_CASE("reader: the history is that of the present run alone", "[text]") {
 TEST_CASE("reader: --run gives the head of its run and nothing of another", "[text]") {
   const TemporaryFile file(
       "# one\n## smooth v mean width 3\n# t[s] v[m/s]\n0 1\n\n# two\n# t[ms] v[km/h] n\n0 36 1\n");
-  Reader in({.files = {file.name()}, .run = 2}, {});
+  Reader in({.files = {file.name()}, .run = "2"}, {});
   const auto v = in.need("v");
   REQUIRE(in.next_run());
   CHECK(in.history().empty());

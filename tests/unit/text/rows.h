@@ -82,7 +82,7 @@ inline std::string names(const std::string& text) {
 }
 
 inline ReaderOptions use(const Texts& what) { return {.use = what}; }
-inline ReaderOptions run(int number) { return {.run = number}; }
+inline ReaderOptions run(int number) { return {.run = std::to_string(number)}; }
 inline const ReaderOptions strict{.strict = true};
 
 }  // namespace rolling

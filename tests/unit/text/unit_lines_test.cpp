@@ -34,7 +34,7 @@ TEST_CASE("unit lines: a column gets the unit below its name", "[text]") {
   CHECK(with_unit("x[cm]", "") == "x[cm]");
   CHECK(with_unit("x[cm]", "(cm)") == "x[cm]");
   CHECK(with_unit("x[cm]", "mm") ==
-        "f:2: the column 'x[cm]' has another unit in the line below, 'mm'");
+        "f:2: the column 'x[cm]' has another unit in the line of units, 'mm'");
 }
 
 TEST_CASE("unit lines: a unit that looks like the label of a run is still the unit", "[text]") {

@@ -95,6 +95,15 @@ TEST_CASE("unit: kinds of it", "[text]") {
   for (const char* unit : {"N", "", "[", "-", "(mm", "[mm)", "mm)"}) CHECK(!is_unit(unit));
 }
 
+TEST_CASE("unit: ratios of lengths", "[text]") {
+  CHECK(read_unit("%") == Unit{"", {1, 100}});
+  CHECK(read_unit("mm/m") == Unit{"", {1, 1000}});
+  CHECK(read_unit("cm per km") == Unit{"", {1, 100'000}});
+  CHECK(read_unit("m/m") == Unit{"", {1, 1}});
+  CHECK_FALSE(read_unit("s/s").has_value());
+  CHECK_FALSE(read_unit("m/m/m").has_value());
+}
+
 TEST_CASE("unit: at the end of a name", "[text]") {
   struct Case {
     const char *quantity, *name, *unit;
