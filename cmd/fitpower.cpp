@@ -48,6 +48,13 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
     bodies.body.slope = slope.value;
     bodies.body.sigma_slope = slope.sigma;
   });
+  tool.add("--wind", "W,...|fit",
+           "speed of the air towards falling x [m/s], one or one for each run, for a law with d2; "
+           "fit: find one for all runs",
+           [&](const std::string& text) {
+    options.fit_wind = text == "fit";
+    if (!options.fit_wind) bodies.winds = to_numbers(text, any_number);
+  });
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
@@ -57,6 +64,16 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
   tool.add(
       "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
       [&](const std::string& setting) { fix(options, setting); }, Tool::Values::many);
+}
+
+/// Refuses a wind under a law without a drag, and says what one wind for several runs assumes.
+void doubt_wind(Tool& tool, const FitOptions& options, std::size_t runs) {
+  if (options.law->drag < 0)
+    tool.refuse({"wind"}, "acts on a term d2 v^2: say --law d0+d2*v^2, or another with d2");
+  if (options.fit_wind && runs > 1)
+    tool.warn(
+        "one wind is fitted for all runs: where it was not the same, the law is off, and the "
+        "residuals do not show it");
 }
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
@@ -84,7 +101,7 @@ struct Cell {
 };
 
 /// The row of a fit.
-std::vector<Cell> row_of(const FitOfRuns& fit, bool with_slope) {
+std::vector<Cell> row_of(const FitOfRuns& fit) {
   const FitResult& r = *fit.result;
   std::vector<Cell> row;
   const auto estimate = [&](const Column& c, const Estimate& x) {
@@ -99,7 +116,8 @@ std::vector<Cell> row_of(const FitOfRuns& fit, bool with_slope) {
   row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n), true}});
   const bool roll = r.v0.size() == 1;  // the numbers of one of several are no columns
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
-  if (with_slope) estimate({"slope"}, {r.slope, r.sigma_slope});
+  for (std::size_t i = 0; i < scene_numbers.size(); ++i)
+    if (r.scene[i]) estimate({scene_numbers[i].name, scene_numbers[i].unit_of_value}, *r.scene[i]);
   if (r.x0.size() == 1) estimate({"x0", "m"}, r.x0.front());
   if (roll) row.push_back({{"t0", "s"}, fit.runs.front().t.front()});
   return row;
@@ -118,9 +136,9 @@ std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& opt
 /// Writes a row for each fit, of which `fitted` is one. A run that could not be fitted has blank
 /// cells, and so have errors that do not exist.
 void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fitted,
-           bool with_slope, bool with_run) {
+           bool with_run) {
   std::vector<Column> columns;
-  std::vector<Cell> blank = row_of(fitted, with_slope);
+  std::vector<Cell> blank = row_of(fitted);
   for (Cell& cell : blank) {
     columns.push_back(cell.column);
     cell.value = NAN;
@@ -129,7 +147,7 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
   out.names(columns);
   for (const FitOfRuns& fit : fits) {
     const bool without_errors = !fit.result || fit.result->errors == Errors::none;
-    for (const auto& [column, value, is_count] : fit.result ? row_of(fit, with_slope) : blank)
+    for (const auto& [column, value, is_count] : fit.result ? row_of(fit) : blank)
       if (std::isnan(value) && without_errors) out.cell("");
       else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
       else out.cell(value);
@@ -196,7 +214,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (tool.on_command_line("route") && !given_route) {
-      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope"},
+      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "wind"},
                   "is for the fits of the runs: --route fits reads their rows");
       fit_rows(tool, bodies);
       return 0;
@@ -210,6 +228,7 @@ int main(int argc, char** argv) {
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
     auto runs = read_runs(tool, in, route);
+    doubt_wind(tool, options, each ? 1 : runs.size());
     if (!each) warn_of_copies(tool, route, runs);
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);
@@ -221,7 +240,7 @@ int main(int argc, char** argv) {
 
     tool.out.text("## " + line_above(fits, options));
     tool.out.end_line();
-    write(tool.out, fits, *first, options.fit_slope, each);
+    write(tool.out, fits, *first, each);
     const bool compares = with_report || tool.checks;
     if (options.robust && compares)
       tool.warn(

@@ -334,8 +334,8 @@ double LawOfFile::sigma(std::span<const double> by_c) const {
 
 double LawOfFile::sigma(double v) const {
   std::array<double, LawForm::most> by_c{};
-  const double wind = v < 0 ? -law.wind() : law.wind();
-  if (v != 0) law.in_wind(wind).at(std::abs(v), by_c.data());
+  const double against = v < 0 ? -law.wind() : law.wind();
+  if (v != 0) law.in_wind(against).at(std::abs(v), by_c.data());
   return sigma(by_c);
 }
 

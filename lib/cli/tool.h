@@ -75,6 +75,9 @@ inline constexpr Domain whole{"a whole number from 1 to 1e9", [](double x) {
 /// another text and for a number outside the domain.
 double to_number(const std::string& text, const Domain&, double* sigma = nullptr);
 
+/// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83
+std::vector<Estimate> to_numbers(const std::string& text, const Domain&);
+
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 class Tool {
@@ -102,7 +105,7 @@ class Tool {
       value = static_cast<Integer>(to_number(text, domain));
     });
   }
-  /// One number or several, separated by commas; each may have an uncertainty: 0.5+-0.005,0.83
+  /// One number or several, see to_numbers().
   void numbers(const std::string& names, std::vector<Estimate>& values, const Domain&,
                const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,

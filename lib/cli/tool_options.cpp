@@ -118,6 +118,22 @@ double to_number(const std::string& text, const Domain& domain, double* sigma) {
   return read.value;
 }
 
+std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) {
+  const auto parts = split_names(text, ',');
+  const auto both_whole = [](const auto& a, const auto& b) { return is_whole(a) && is_whole(b); };
+  if (std::ranges::adjacent_find(parts, both_whole) != parts.end())
+    fail(
+        "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
+        "write whole numbers with one, as 1.0,2.0",
+        shown(text));
+  std::vector<Estimate> values;
+  for (const std::string& part : parts) {
+    Estimate& one = values.emplace_back();
+    one.value = to_number(part, domain, &one.sigma);
+  }
+  return values;
+}
+
 Tool::Tool(std::string name, const std::string& purpose)
     : name_(std::move(name)), app_(new CLI::App(purpose, name_)) {
   app_->get_formatter()->column_width(help_column);
@@ -154,20 +170,8 @@ void Tool::number(const std::string& names, double& value, const Domain& domain,
 
 void Tool::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
                    const std::string& help) {
-  add(names, "NUMBER,...", help, [&values, domain](const std::string& text) {
-    const auto parts = split_names(text, ',');
-    const auto both_whole = [](const auto& a, const auto& b) { return is_whole(a) && is_whole(b); };
-    if (std::ranges::adjacent_find(parts, both_whole) != parts.end())
-      fail(
-          "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
-          "write whole numbers with one, as 1.0,2.0",
-          shown(text));
-    values.clear();
-    for (const std::string& part : parts) {
-      Estimate& one = values.emplace_back();
-      one.value = to_number(part, domain, &one.sigma);
-    }
-  });
+  add(names, "NUMBER,...", help,
+      [&values, domain](const std::string& text) { values = to_numbers(text, domain); });
 }
 
 void Tool::text(const std::string& names, std::string& value, const std::string& type,

@@ -56,11 +56,9 @@ FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
     result.sigma_b = b.sigma;
     result.corr = result.correlations[0][1];
   }
-  if (found.slope) {
-    const Estimate slope = next(found.slope->value);
-    result.slope = slope.value;
-    result.sigma_slope = slope.sigma;
-  }
+  auto of_scene = found.scene.begin();
+  for (std::size_t i = 0; i < scene_numbers.size(); ++i)
+    if (found.parameters().fits(i)) result.scene[i] = next((of_scene++)->value);
   for (const auto& [of_runs, estimates] :
        {std::pair(&found.v0, &result.v0), {&found.x0, &result.x0}})
     for (const FittedNumber& of_run : *of_runs)
@@ -107,6 +105,10 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
   };
   const Estimate first = result.coefficients.front();
+  if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
+    fail(
+        "a wind and the law slow the body down alike, and these runs do not tell them apart: add "
+        "runs in the other direction");
   if (options.fit_slope && !both_ways(found) &&
       !(has_errors && result.law.power() && !not_visited(0) &&
         !not_visited(form.coefficients.size())))
@@ -141,7 +143,7 @@ void require_roll(const Fitted& found) {
     const double v0 = std::abs(found.v0[r].value);
     const double D = found.law().at(v0).D;
     const double last = run.t.back();
-    if (run.body.slope == 0 && !found.slope && std::abs(D) < program_rounding * run.body.R)
+    if (run.body.slope == 0 && found.scene.empty() && std::abs(D) < program_rounding * run.body.R)
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
     double fastest = 0;
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)

@@ -45,7 +45,12 @@ void read_off(Fitted& fit) {
     fit.coefficients.push_back(number(q.fixed(j).value_or(value), {by_c}));
   }
   if (!fit.is_roll()) return;
-  if (q.fits_slope()) fit.slope = number(q.slope(theta, 0), {by_c, 0, 0, 1});
+  fit.scene.clear();
+  for (std::size_t i = 0; i < scene_numbers.size(); ++i) {
+    Parameters::Derivatives by{by_c};
+    by.scene[i] = 1;
+    if (q.fits(i)) fit.scene.push_back(number(q.body(theta, {}).*scene_numbers[i].value, by));
+  }
   for (std::size_t r = 0; r < fit.model.runs().size(); ++r) {
     const double way = fit.model.runs()[r].way;
     fit.v0.push_back(number(way * q.v0(theta, r), {by_c, way}));
@@ -61,7 +66,7 @@ Law Fitted::law() const {
 
 std::vector<FittedNumber> Fitted::numbers() const {
   std::vector<FittedNumber> all = coefficients;
-  if (slope) all.push_back(*slope);
+  all.insert(all.end(), scene.begin(), scene.end());
   if (!v0.empty()) all.push_back(v0.front());
   if (!x0.empty()) all.push_back(x0.front());
   return all;

@@ -47,9 +47,9 @@ struct Fitted {
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
   std::vector<double> bias = {};  ///< the expected bias of each; empty where it is not known
   double error_of_clock = 0;  ///< of the v0 of the first run, if its rows do not tell their times
-  std::optional<FittedNumber> slope = {};  ///< if it is a parameter
-  std::vector<FittedNumber> v0 = {};       ///< one for each run, if the model is a roll
-  std::vector<FittedNumber> x0 = {};       ///< likewise, if positions are fitted
+  std::vector<FittedNumber> scene = {};  ///< the numbers of it that are parameters
+  std::vector<FittedNumber> v0 = {};     ///< one for each run, if the model is a roll
+  std::vector<FittedNumber> x0 = {};     ///< likewise, if positions are fitted
   Model model = {};
 
   bool is_roll() const { return model.is_roll(); }
@@ -57,7 +57,7 @@ struct Fitted {
   System system() const { return system_of(model, noise); }
   const Parameters& parameters() const { return model.parameters(); }
   Law law() const;
-  /// The numbers that have errors: the coefficients, the slope if it is a parameter, and v0 and x0
+  /// The numbers that have errors: the coefficients, those of the scene, and v0 and x0
   /// of the first run, if the model has them. A row reports these of a single run alone.
   std::vector<FittedNumber> numbers() const;
   /// The highest speed that was fitted.
@@ -71,7 +71,7 @@ struct Fitted {
 inline bool was_found(const Fitted& fit) { return std::isfinite(fit.minimum.rss); }
 
 /// Reads the numbers off the minimum: writes the coefficients of the law with their gradients into
-/// the fit, and of a roll the slope, v0 and x0.
+/// the fit, and of a roll those of the scene, v0 and x0.
 void read_off(Fitted&);
 
 /// Throws Error if n rows, so many of which filters leave independent, are too few for p

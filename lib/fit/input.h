@@ -8,6 +8,7 @@
 #include "contact/law.h"
 #include "noise/response.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,12 +66,26 @@ struct FitOptions {
   Geometry geometry = Geometry::approximate;
   std::optional<double> a, b, v0, x0;  ///< parameters that are fixed
   bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
+  bool fit_wind = false;   ///< so is the wind, of a law with the drag of the air
   double min_speed = 0;    ///< rows slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
   /// more rows, no known filter): differences of x, and for comparison means of v.
   std::vector<LinearFilter> possible_filters;
   bool robust = false;  ///< bisquare loss instead of squares; not for filtered columns
 };
+
+/// A number of the road or of the air that may be a parameter, common to all runs.
+struct SceneNumber {
+  const char* name;
+  const char* unit_of_value;
+  double Body::*value;
+  bool FitOptions::*is_fitted;
+  double unit;  ///< of its element of theta
+};
+inline constexpr std::size_t place_of_wind = 1;  ///< its place among them, the last
+inline constexpr std::array<SceneNumber, 2> scene_numbers{
+    {{"slope", "", &Body::slope, &FitOptions::fit_slope, 1e-3},
+     {"wind", "m/s", &Body::wind, &FitOptions::fit_wind, 1}}};
 
 /// The body of a run on this route, with the uncertainties of its numbers, and the geometry.
 inline ShiftOf contact_of(Route route, const Run& run, const FitOptions& options) {

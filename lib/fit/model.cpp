@@ -53,8 +53,10 @@ double way_before_turn(bool position, const std::vector<double>& t,
 
 Parameters::Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref,
                        double x_ref)
-    : fixed_{options.a, options.b}, v0_(options.v0), x0_(options.x0), slope_(options.fit_slope),
-      position_(position), runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {}
+    : fixed_{options.a, options.b}, v0_(options.v0), x0_(options.x0), position_(position),
+      runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {
+  for (std::size_t i = 0; i < asked_.size(); ++i) asked_[i] = options.*scene_numbers[i].is_fitted;
+}
 
 Parameters::Parameters(const FitOptions& options, double v_unit)
     : fixed_{options.a, options.b}, v0_(0), v_unit_(v_unit) {}
@@ -80,6 +82,12 @@ std::size_t Parameters::coefficients() const {
   return free;
 }
 
+std::size_t Parameters::scene() const {
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < asked_.size(); ++i) all += fits(i);
+  return all;
+}
+
 Law Parameters::law(const std::vector<double>& theta) const {
   std::array<double, LawForm::most> c{};
   std::size_t next = count() - shared();
@@ -99,14 +107,17 @@ double Parameters::x0(const std::vector<double>& theta, std::size_t run) const {
   return x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
 }
 
-double Parameters::slope(const std::vector<double>& theta, double given) const {
-  return slope_ ? theta.back() * slope_unit : given;
+Body Parameters::body(const std::vector<double>& theta, Body given) const {
+  std::size_t at = count() - scene();
+  for (std::size_t i = 0; i < asked_.size(); ++i)
+    if (fits(i)) given.*scene_numbers[i].value = theta[at++] * scene_numbers[i].unit;
+  return given;
 }
 
 Parameters Parameters::of_one_run() const {
   Parameters one = *this;
   one.runs_ = 1;
-  one.slope_ = false;
+  one.asked_ = {};
   return one;
 }
 
@@ -114,7 +125,7 @@ std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
                                              std::size_t run) const {
   const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
   std::vector<double> one(at(run * own()), at((run + 1) * own()));
-  one.insert(one.end(), at(runs_ * own()), at(count() - slope_));
+  one.insert(one.end(), at(runs_ * own()), at(count() - scene()));
   return one;
 }
 
@@ -127,7 +138,7 @@ std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v
   }
   if (!fixed_[0]) all.push_back(std::log(law(v_unit_)));
   if (!fixed_[1]) all.push_back(law.b);
-  if (slope_) all.push_back(slope / slope_unit);
+  if (fits(0)) all.push_back(slope / scene_numbers[0].unit);
   return all;
 }
 
@@ -139,7 +150,7 @@ std::vector<double> Parameters::theta_of(const Parameters& other,
     v0s.push_back(other.v0(theta, r));
     x0s.push_back(other.x0(theta, r));
   }
-  return this->theta(*other.law(theta).power(), v0s, x0s, other.slope(theta, 0));
+  return this->theta(*other.law(theta).power(), v0s, x0s, other.body(theta, {}).slope);
 }
 
 void Parameters::chain(double* to, std::size_t stride, double c0,
@@ -154,7 +165,8 @@ void Parameters::chain(double* to, std::size_t stride, double c0,
     if (j == 1 && fixed_[0]) by_theta += c0 * std::log(v_unit_) * by.by_c[0];
     put(by_theta);
   }
-  if (slope_) put(by.slope * slope_unit);
+  for (std::size_t i = 0; i < asked_.size(); ++i)
+    if (fits(i)) put(by.scene[i] * scene_numbers[i].unit);
 }
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
@@ -234,11 +246,12 @@ std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Paramet
 }
 
 Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
-  Body body = runs()[run].body;
-  body.slope = runs()[run].way * parameters_.slope(theta, body.slope);
+  Body body = parameters_.body(theta, runs()[run].body);
+  body.slope *= runs()[run].way;
+  body.wind *= runs()[run].way;
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
-  if (law.at(v0).D < 0) fail("the mat does not slow the body down");
+  if (law.in_wind(body.wind).at(v0).D < 0) fail("the mat does not slow the body down");
   return {body, runs()[run].geometry, law, v0};
 }
 
@@ -254,12 +267,12 @@ RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x
                        roll = std::move(roll)](double t) mutable {
     Roll::Point p = roll.at(t);
     Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
-    const std::size_t slope = roll.law().size();  // behind the coefficients, and way^2 is 1
+    const std::size_t slope = roll.law().size();  // then the wind; way^2 is 1
     for (std::size_t j = 0; j < slope; ++j) by_c[j] *= way;
     std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v)};
     // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
     q.chain(&values[0] + 1, 1, roll.law().c(0),
-            {by_c, way * (position ? p.x_v0 : p.v_v0), 1, by_c[slope]});
+            {by_c, way * (position ? p.x_v0 : p.v_v0), 1, {by_c[slope], by_c[slope + 1]}});
     return values;
   };
   return [at = ChebyshevPanels(run.t, corners, direct)](double t, double* slopes,

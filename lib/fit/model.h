@@ -38,14 +38,14 @@
 namespace rolling {
 
 /// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
-/// by all runs follow: the coefficients of the law in units of its own, and the slope of the mat in
-/// millimetres per metre. Of a v^b they are ln D at the unit of speed, in place of a, which is
-/// nearly collinear with b, and b. Parameters that are fixed have no element in theta. v0 is
-/// the speed along the direction of motion and is not negative.
+/// by all runs follow: the coefficients of the law in units of its own, and the numbers of the
+/// scene, of which the wind is none under a law without the drag of the air. Of a v^b they are ln D
+/// at the unit of speed, in place of a, which is nearly collinear with b, and b. Parameters that
+/// are fixed have no element in theta. v0 is the speed along the direction of motion and is not
+/// negative.
 class Parameters {
  public:
-  static constexpr double slope_unit = 1e-3;
-  static constexpr std::size_t most = LawForm::most + 3;  ///< v0, x0 and the slope
+  static constexpr std::size_t most = LawForm::most + 2 + scene_numbers.size();  ///< v0, x0
 
   Parameters() = default;
   /// Of rolls under a v^b. `position`: the raw column is a position, so that each run has an x0.
@@ -63,7 +63,13 @@ class Parameters {
   std::optional<double> fixed(std::size_t j) const { return fixed_[j]; }
   /// The number of free coefficients of the law.
   std::size_t coefficients() const;
-  std::size_t shared() const { return coefficients() + slope_; }
+  /// Whether number i of the scene is a parameter.
+  bool fits(std::size_t i) const {
+    return asked_[i] && (scene_numbers[i].value != &Body::wind || form_->drag >= 0);
+  }
+  /// The number of those that are parameters.
+  std::size_t scene() const;
+  std::size_t shared() const { return coefficients() + scene(); }
   std::size_t own() const { return !v0_ + free_x0(); }
   std::size_t columns() const { return own() + shared(); }
   std::size_t count() const { return runs_ * own() + shared(); }
@@ -71,11 +77,10 @@ class Parameters {
   Law law(const std::vector<double>& theta) const;
   double v0(const std::vector<double>& theta, std::size_t run) const;
   double x0(const std::vector<double>& theta, std::size_t run) const;
-  /// The slope of the mat along growing x; `given` if the slope is not a parameter.
-  double slope(const std::vector<double>& theta, double given) const;
-  bool fits_slope() const { return slope_; }
+  /// The given body with the numbers of the scene that are parameters.
+  Body body(const std::vector<double>& theta, Body given) const;
   bool has_x0() const { return position_; }
-  /// The parameters of a single run on a mat whose slope is fixed.
+  /// The parameters of a single run in a scene that is fixed.
   Parameters of_one_run() const;
   std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
   /// The theta of a v^b with these v0 and x0 (one for each run), and this slope.
@@ -85,10 +90,11 @@ class Parameters {
   std::vector<double> theta_of(const Parameters&, const std::vector<double>& theta) const;
 
   /// Partial derivatives of a number: by the coefficients of the law, by the v0 and x0 of its run,
-  /// and by the slope.
+  /// and by the numbers of the scene.
   struct Derivatives {
     std::span<const double> by_c;
-    double v0 = 0, x0 = 0, slope = 0;
+    double v0 = 0, x0 = 0;
+    std::array<double, scene_numbers.size()> scene = {};
   };
   /// Converts derivatives to the elements of theta, those of the run first and then the shared
   /// ones, and writes them `stride` apart. c0 is the first coefficient under theta.
@@ -102,7 +108,7 @@ class Parameters {
   std::array<std::optional<double>, LawForm::most> fixed_ = {};  // of a v^b, in SI units
   std::optional<double> v0_;
   std::optional<double> x0_;
-  bool slope_ = false;
+  std::array<bool, scene_numbers.size()> asked_ = {};
   bool position_ = false;
   std::size_t runs_ = 0;
   double v_ref_ = 1;

@@ -109,7 +109,7 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
     by_slope.push_back(run.way * run.body.R / D);
   }
   const RandomEffectsLine line = random_effects_line(log_D, by_slope, freedom);
-  joint.slope->value += line.slope;
+  joint.scene.front().value += line.slope;
   sigma = student(freedom) * std::sqrt(line.chi2 / freedom / line.spread);
   CommonError common;
   for (std::size_t i = 0; i < laws.size(); ++i) {
@@ -135,7 +135,7 @@ std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& opt
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
   std::vector<CommonError> common;
   double sigma_slope = 0;
-  if (joint.slope) common.push_back(take_slope(laws, log_v, freedom, joint, sigma_slope));
+  if (options.fit_slope) common.push_back(take_slope(laws, log_v, freedom, joint, sigma_slope));
   const JointLaw mean = scattered_mean(laws, log_v, freedom, common);
   double& a = joint.coefficients[0].value;
   double& b = joint.coefficients[1].value;
@@ -169,7 +169,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
   const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
   const bool b_held = options.b || joint.coefficients.size() < 2;
-  const Agreement found = compare(laws, !options.a + !b_held, options.fit_slope);
+  const Agreement found = compare(laws, !options.a + !b_held, joint.scene.size());
   if (found.agree()) return found;
   errors = uncertainty_of(around_own(joint, own));
   // The bias of logarithms comes from the noise too.
@@ -179,7 +179,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
       joint.bias.resize(joint.coefficients.size());
       joint.bias[j] += own[one.run]->bias[j] / static_cast<double>(laws.size());
     }
-  const std::size_t shared = joint.coefficients.size() + options.fit_slope;
+  const std::size_t shared = joint.coefficients.size() + joint.scene.size();
   const auto of_means = take_means(laws, options, joint);
   for (std::size_t i = 0; i < errors.covariance.size(); ++i)
     for (std::size_t j = 0; j < errors.covariance.size(); ++j) {

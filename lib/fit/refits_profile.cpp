@@ -233,7 +233,7 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
 std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertainty& noise,
                                             const FitOptions& options) {
   std::vector<Interval> found;
-  const std::size_t shared = of_all.coefficients.size() + of_all.slope.has_value();
+  const std::size_t shared = of_all.coefficients.size() + of_all.scene.size();
   const FewRows few(of_all);
   std::vector<std::size_t> doubtful;
   for (std::size_t j = 0; j < shared; ++j) {

@@ -2,6 +2,7 @@
 // What a fit finds: the law, its errors and their sources, and what the residuals show beside it.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "base/estimate.h"
 #include "base/matrix.h"
 #include "contact/law.h"
+#include "fit/input.h"
 #include "statistics/run_laws.h"
 
 namespace rolling {
@@ -54,7 +56,7 @@ struct ErrorShare {
 /// An interval of 95 % of a number by the profile of the sum of squares, see
 /// intervals_not_visited(). An end is infinite if the readings do not bound it.
 struct Interval {
-  std::size_t number;  ///< of the coefficient; the slope follows the last one
+  std::size_t number;  ///< of the coefficient; those of the scene follow the last one
   double lower, upper;
 };
 
@@ -83,8 +85,9 @@ struct FitResult {
   /// At the first row [m/s], of each run (trajectory routes). Of several runs only the first has an
   /// error.
   std::vector<Estimate> v0 = {};
-  std::vector<Estimate> x0 = {};      ///< likewise [m] (positions)
-  double slope = 0, sigma_slope = 0;  ///< the slope of the mat, if it was fitted
+  std::vector<Estimate> x0 = {};  ///< likewise [m] (positions)
+  /// The numbers of the scene, as far as they were fitted.
+  std::array<std::optional<Estimate>, scene_numbers.size()> scene = {};
   Errors errors;
   std::optional<Eccentricity> eccentricity = {};  ///< of the run with the signal of the smallest p
   std::optional<Agreement> agreement = {};        ///< for two or more runs

@@ -18,21 +18,28 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   const double v = power.fastest();
   fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
   for (const auto& c : law.starts) {
-    std::vector<double> theta = power.minimum.theta;  // its v0, x0 and slope
+    std::vector<double> theta = power.minimum.theta;  // its v0, x0 and scene, without a wind
     const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared());
-    const auto end = theta.end() - power.slope.has_value();
+    const auto end = theta.end() - static_cast<std::ptrdiff_t>(power.scene.size());
     theta.insert(theta.erase(first, end), c.begin(), c.end());
-    improve(fit.minimum, fit.system(), theta);
+    if (!fit.parameters().fits(place_of_wind)) improve(fit.minimum, fit.system(), theta);
+    else
+      for (const double part : {-0.1, 0.0, 0.1}) {
+        std::vector<double> blown = theta;
+        blown.push_back(part * v / scene_numbers[place_of_wind].unit);
+        improve(fit.minimum, fit.system(), blown);
+      }
   }
   if (was_found(fit)) read_off(fit);
   return fit;
 }
 
 Fitted fit_of_law(const Fitted& power, const LawForm& law) {
-  const char* const slope =
-      power.slope ? " and the slope of the mat: add runs in the other direction" : "";
   Fitted found = fit_beside(power, law);
-  if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, slope);
+  std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
+  if (found.parameters().scene() > 0) scene += ": add runs in the other direction";
+  else scene = "";
+  if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, scene);
   return found;
 }
 
@@ -48,6 +55,8 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
     fail("the slope shows in a roll alone, not in a line through ln D: --route shift");
   if (options.fit_slope && route == Route::shift && !known)
     fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
+  if ((options.fit_wind || runs.front().body.wind != 0) && !is_trajectory(route))
+    fail("the wind shows in a roll alone: --route velocity or position");
   if (options.robust && known)
     fail(
         "--robust judges single readings, and a filter spreads an outlier over many: fit the "

@@ -74,7 +74,7 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const Parameters& all = joint.parameters();
   ObservedRun run = joint.model.runs()[r];
   const Parameters own = all.of_one_run();
-  run.body.slope = all.slope(theta, run.body.slope);
+  run.body = all.body(theta, run.body);
   auto noise = noise_of({run}, joint.noise->added());
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   return fit_from({own, {all.theta_of_run(theta, r)}}, {std::move(run)}, std::move(noise), options);

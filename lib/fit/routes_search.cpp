@@ -56,7 +56,7 @@ bool has_wall(const Model& rolls, const std::vector<double>& theta) {
   const Parameters& q = rolls.parameters();
   if (!rolls.is_roll() || &q.form() != &laws().front() || q.fixed(1)) return false;
   return std::ranges::any_of(rolls.runs(), [&](const ObservedRun& run) {
-    return run.way * q.slope(theta, run.body.slope) > 0;
+    return run.way * q.body(theta, run.body).slope > 0;
   });
 }
 

@@ -111,6 +111,7 @@ void Bodies::give_to(std::vector<Run>& runs) const {
     runs[i].body.sigma_K = K.sigma;
     runs[i].body.R = R.value;
     runs[i].body.sigma_R = R.sigma;
+    if (!winds.empty()) runs[i].body.wind = of_run(winds, "wind", i, runs.size()).value;
   }
 }
 

@@ -33,9 +33,10 @@ bool take_pulses(Tool&, std::vector<Run>&);
 /// The bodies as the command line gives them: one shape factor, or one for each run, or none; and
 /// so one radius.
 struct Bodies {
-  Body body = {};  ///< all numbers but K and R
+  Body body = {};  ///< all numbers but K, R and the wind
   std::vector<Estimate> shape_factors = {};
   std::vector<Estimate> radii = {};
+  std::vector<Estimate> winds = {};
 
   void give_to(std::vector<Run>&) const;
 };

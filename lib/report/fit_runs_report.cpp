@@ -97,7 +97,7 @@ class Remarks {
       if (!noisy_ || r_.not_visited.empty()) uncertain_a();
       if (noisy_) residuals();
     }
-    if (noisy_ && r_.sigma_slope > 0 && fit_.runs.size() == 2)
+    if (noisy_ && r_.scene[0] && r_.scene[0]->sigma > 0 && fit_.runs.size() == 2)
       tool_.warn("",
                  "two rolls alone tell the slope: what their laws differ by counts as slope, and "
                  "its standard uncertainty does not hold that; add rolls in both directions");
@@ -219,13 +219,20 @@ class Remarks {
                  "account: look at the residuals");
   }
 
+  /// The name of a coefficient or, behind them, of a number of the scene.
+  std::string name_of(std::size_t number) const {
+    std::vector<std::string> names;
+    for (const auto& c : r_.law.form().coefficients) names.push_back(c.name);
+    for (std::size_t i = 0; i < scene_numbers.size(); ++i)
+      if (r_.scene[i]) names.push_back(scene_numbers[i].name);
+    return names[number];
+  }
+
   /// Tells the intervals that are not those of 1.96 standard errors.
   void intervals() {
-    const LawForm& form = r_.law.form();
     std::string all;
     for (const Interval& of : r_.not_visited) {
-      const bool slope = of.number == form.coefficients.size();
-      const std::string name = slope ? "slope" : form.coefficients[of.number].name;
+      const std::string name = name_of(of.number);
       if (std::isinf(of.lower) && std::isinf(of.upper)) add_item(all, name + " not bounded");
       else if (std::isinf(of.lower)) add_item(all, fmt::format("{} below {:.3g}", name, of.upper));
       else if (std::isinf(of.upper)) add_item(all, fmt::format("{} above {:.3g}", name, of.lower));

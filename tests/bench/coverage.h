@@ -247,7 +247,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
         row.covers_a[i] += std::abs(a) < most;
         row.covers_b[i] += std::abs(b) < most;
       }
-      row.cover_slope += c.down > 0 && std::abs(r.slope - slope) < 1.96 * r.sigma_slope;
+      row.cover_slope +=
+          c.down > 0 && std::abs(r.scene[0]->value - slope) < 1.96 * r.scene[0]->sigma;
       row.far += std::abs(b) > 6 || std::abs(a) > 6;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
                   r.reversals <= rolling::levels::few_reversals ||

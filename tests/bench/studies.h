@@ -63,7 +63,7 @@ inline SlopePairs slope_pairs(PowerLaw law, double slope, int pairs, unsigned se
     const FitResult r = fit(Route::position, runs, options);
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);
-    all.slope.add(r.slope, r.sigma_slope);
+    all.slope.add(r.scene[0]->value, r.scene[0]->sigma);
   }
   return all;
 }
@@ -103,7 +103,7 @@ inline TurningRuns turning_runs(const Turning& body, double slope, Route route, 
       const FitResult r = fit(route, {run}, options);
       all.a.add(r.a, r.sigma_a);
       all.b.add(r.b, r.sigma_b);
-      all.slope.add(way * r.slope, r.sigma_slope);
+      all.slope.add(way * r.scene[0]->value, r.scene[0]->sigma);
     } catch (const Error&) {
       ++all.refused;
     }

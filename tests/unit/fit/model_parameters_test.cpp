@@ -8,6 +8,8 @@ using namespace rolling;
 TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among others", "[fit]") {
   for (bool fit_slope : {false, true})
     for (bool hold_a : {false, true}) {
+      Body given{1, 1, 1};
+      given.slope = 7;
       FitOptions options;
       options.fit_slope = fit_slope;
       if (hold_a) options.a = 2e-3;
@@ -15,7 +17,7 @@ TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among 
       auto theta = all.theta({2e-3, 0.3}, {0.4, 0.5, 0.6}, {1, 2, 3});
       REQUIRE(theta.size() == all.count());
       if (fit_slope) theta.back() = 1.5;
-      CHECK(all.slope(theta, 7) == (fit_slope ? 1.5e-3 : 7));
+      CHECK(all.body(theta, given).slope == (fit_slope ? 1.5e-3 : 7));
       for (std::size_t r = 0; r < 3; ++r) {
         const auto own = all.theta_of_run(theta, r);
         REQUIRE(own.size() == one.count());
@@ -23,7 +25,7 @@ TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among 
         CHECK(one.x0(own, 0) == all.x0(theta, r));
         CHECK(one.law(own).c(0) == all.law(theta).c(0));
         CHECK(one.law(own).c(1) == all.law(theta).c(1));
-        CHECK(one.slope(own, 7) == 7);
+        CHECK(one.body(own, given).slope == 7);
       }
     }
 }

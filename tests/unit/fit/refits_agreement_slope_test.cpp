@@ -44,7 +44,7 @@ TEST_CASE("agreement: a run with as many rows as parameters shows no noise", "[f
   const auto three = fit(Route::position, runs, options);
   CHECK_FALSE(three.agreement->agree());
   CHECK(std::abs(three.sigma_a / two.sigma_a - 1) < 0.2);
-  CHECK(std::abs(three.sigma_slope / two.sigma_slope - 1) < 0.2);
+  CHECK(std::abs(three.scene[0]->sigma / two.scene[0]->sigma - 1) < 0.2);
 }
 
 TEST_CASE("agreement: runs of which only the common slope is unknown have no law to compare",
@@ -56,7 +56,7 @@ TEST_CASE("agreement: runs of which only the common slope is unknown have no law
   const std::vector<Run> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
   const auto r = fit(Route::position, runs, options);
   CHECK_FALSE(r.agreement);
-  CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
+  CHECK(std::abs(r.scene[0]->value - 1e-3) < 4 * r.scene[0]->sigma);
 }
 
 // Of seven rolls up and one down the mean of a hangs on the slope, which is found from their
@@ -97,9 +97,9 @@ TEST_CASE("agreement: the exponents of the runs are those at the slope that is f
   const auto r = fit(Route::position, runs, options);
   REQUIRE_FALSE(r.agreement->agree());
   const double D = rubber.a * std::pow(0.25, rubber.b), by_slope = 0.5 * 0.04 * rubber.b / D;
-  CHECK((r.b - rubber.b) / (by_slope * (r.slope - 1e-3)) == Approx(1).epsilon(0.15));
-  CHECK(r.sigma_b > 0.9 * by_slope * r.sigma_slope);
-  CHECK(r.sigma_b < 1.5 * by_slope * r.sigma_slope);
+  CHECK((r.b - rubber.b) / (by_slope * (r.scene[0]->value - 1e-3)) == Approx(1).epsilon(0.15));
+  CHECK(r.sigma_b > 0.9 * by_slope * r.scene[0]->sigma);
+  CHECK(r.sigma_b < 1.5 * by_slope * r.scene[0]->sigma);
 }
 
 // The error of the slope is that of a difference of two means in ln D, times D/(2 R): 2 rolls up
@@ -118,7 +118,7 @@ TEST_CASE("agreement: the error of the slope where b is held, by hand", "[fit]")
                D = rubber.a * std::sqrt(way_to_stop / runs[0].t.back()),
                scatter = std::sqrt(2 * (0.05 * 0.05 + 0.03 * 0.03) / 2),
                student = gsl_cdf_tdist_Pinv(0.975, 2) / gsl_cdf_ugaussian_Pinv(0.975);
-  CHECK(r.sigma_slope == Approx(student * scatter * D / (2 * 0.04)).epsilon(0.05));
+  CHECK(r.scene[0]->sigma == Approx(student * scatter * D / (2 * 0.04)).epsilon(0.05));
 }
 
 // What the runs scatter by is no slope: in one direction it is found by its part of each roll
@@ -133,7 +133,7 @@ TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope
       runs.push_back(roll({rubber.a * (1 + noise(0.01)), rubber.b}, 1e-3, 1, noise, 1e-4));
     try {
       const auto r = fit(Route::position, runs, options);
-      CHECK(std::abs(r.slope - 1e-3) < 4 * r.sigma_slope);
+      CHECK(std::abs(r.scene[0]->value - 1e-3) < 4 * r.scene[0]->sigma);
       CHECK(std::abs(r.a - rubber.a) < 4 * r.sigma_a);
     } catch (const Error&) {  // not determined
     }
@@ -165,8 +165,8 @@ TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted",
       }
     }
     const FitResult six = fit(Route::position, runs, options);
-    held += std::abs(six.slope - slope) < 1.96 * six.sigma_slope;
-    near += std::abs(six.slope - four.slope) < 2 * four.sigma_slope;
+    held += std::abs(six.scene[0]->value - slope) < 1.96 * six.scene[0]->sigma;
+    near += std::abs(six.scene[0]->value - four.scene[0]->value) < 2 * four.scene[0]->sigma;
   }
   CHECK(near >= 38);
   CHECK(held >= 32);  // of 38: fewer by chance in 0.3 %

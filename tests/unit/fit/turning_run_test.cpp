@@ -58,7 +58,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         CHECK(r.v0[0].value * way > 0);
         off_a += std::abs(r.a - scene.a) > 1.96 * r.sigma_a;
         off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
-        off_slope += std::abs(r.slope - way * scene.slope) > 1.96 * r.sigma_slope;
+        off_slope += std::abs(r.scene[0]->value - way * scene.slope) > 1.96 * r.scene[0]->sigma;
       }
   const int most = seeds == 10 ? 18 : 6;
   CHECK(off_a <= most);
