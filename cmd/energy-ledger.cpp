@@ -235,8 +235,8 @@ int main(int argc, char** argv) {
     const auto read = [&] {
       task.laws = read_laws(tool, law, task.given, is_chosen("sigma_D"));
       for (LawOfFile& one : task.laws) {
-        check_wind(body, one.law);
-        one.law = one.law.in_wind(body.wind);
+        check_wind(one.contact.body, one.law);
+        one.law = one.law.in_wind(one.contact.body.wind);
       }
     };
     if (task.uses_law) read();
@@ -262,10 +262,11 @@ int main(int argc, char** argv) {
         tool, in, task, filter,
         [&](const LawOfFile& law_of_run) {
       const double slope = law_of_run.contact.body.slope;
+      const double wind = law_of_run.contact.body.wind;
       filter.set_history(fmt::format("energy-ledger {}{}{}",
                                      task.uses_law ? words_of(law_of_run.law) : "D",
                                      slope == 0 ? "" : fmt::format(" slope {}", slope),
-                                     body.wind == 0 ? "" : fmt::format(" wind {}", body.wind)));
+                                     wind == 0 ? "" : fmt::format(" wind {}", wind)));
         },
         [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
       for (const auto& quantity : row)

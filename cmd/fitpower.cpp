@@ -130,7 +130,7 @@ std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& opt
     for (const Run& run : fit.runs)
       of_runs.push_back(is_trajectory(fit.route) ? contact_of(fit.route, run, options)
                                                  : run.shift_of);
-  return line_of_fit(name_of(fits.front().route), *options.law, of_runs, options.fit_slope);
+  return line_of_fit(name_of(fits.front().route), options, of_runs);
 }
 
 /// Writes a row for each fit, of which `fitted` is one. A run that could not be fitted has blank

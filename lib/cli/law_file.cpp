@@ -78,6 +78,7 @@ struct RollNumber {
   double LawOfFile::*value;
 };
 constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
+                                       {"wind", "m/s", &LawOfFile::wind},
                                        {"v0", "m/s", &LawOfFile::v0},
                                        {"x0", "m", &LawOfFile::x0},
                                        {"t0", "s", &LawOfFile::t0}};
@@ -140,9 +141,10 @@ std::vector<LawOfFile> read_rows_of_run(Tool& tool, Reader& in, const RowReader&
       const std::string others = take_contact(tool, contacts[places[i]], row.contact);
       if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
     }
-    // The slope of a row is fitted: it takes precedence over that of a scene.
+    // The slope and the wind of a row are fitted: they take precedence over those of a scene.
     if (!std::isnan(row.slope) && !tool.on_command_line("slope"))
       row.contact.body.slope = row.slope;
+    if (!std::isnan(row.wind) && !tool.on_command_line("wind")) row.contact.body.wind = row.wind;
   }
   return rows;
 }
@@ -309,6 +311,8 @@ std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) 
     contact.body.*number.value = of.body.*number.value;
     contact.body.*number.sigma = of.body.*number.sigma;
   }
+  const bool gives_wind = tool.has("wind") && tool.given("wind");
+  if (!gives_wind && !std::isnan(of.body.wind)) contact.body.wind = of.body.wind;
   std::string others = other_body(of, given);
   take_geometry(tool, of.geometry, contact.geometry, others);
   return others;

@@ -51,6 +51,7 @@ struct LawOfFile {
   std::string run = {};      ///< the run that the row is of, if it has a column run
   /// What the row has of its roll; else NaN.
   double slope = not_given;
+  double wind = not_given;
   double v0 = not_given;
   double x0 = not_given;
   double t0 = not_given;

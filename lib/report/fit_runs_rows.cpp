@@ -161,7 +161,7 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   }
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);
-  tool.out.text("## " + line_of_fit("fits", laws().front(), of_runs, false));
+  tool.out.text("## " + line_of_fit("fits", {}, of_runs));
   tool.out.end_line();
   write(tool.out, joint, rows.laws.size());
   tool.out.flush();

@@ -197,15 +197,25 @@ TEST_CASE("law file: a line of bodies is read back", "[cli]") {
   one.body.sigma_K = 0.01;
   const ShiftOf two{{NAN, 0.04, 0.83, 9.81, -0.001}};
   for (const bool fits_slope : {false, true}) {
-    const std::string line = line_of_fit("velocity", laws()[2], {one, two}, fits_slope);
+    FitOptions options;
+    options.law = &laws()[2];
+    options.fit_slope = fits_slope;
+    const std::string line = line_of_fit("velocity", options, {one, two});
     CHECK(line.find(" velocity d0+d1*v K 0.5+-0.01,0.83 R 0.04 g 9.81 slope ") < 40);
     const auto read = contacts_of_rows({line}, 2);
     REQUIRE(read.size() == 2);
     CHECK((read[0].body.sigma_K == 0.01 && read[1].body.K == 0.83));
     if (fits_slope) CHECK(std::isnan(read[0].body.slope));
     else CHECK((read[0].body.slope == 0.001 && read[1].body.slope == -0.001));
+    one.body.wind = 2.5;
+    options.law = &laws()[4];
+    const auto in_wind = contacts_of_rows({line_of_fit("velocity", options, {one, two})}, 2);
+    CHECK((in_wind.at(0).body.wind == 2.5 && in_wind.at(1).body.wind == 0));
+    options.fit_wind = true;
+    const std::string fitted = line_of_fit("velocity", options, {one, two});
+    CHECK(std::isnan(contacts_of_rows({fitted}, 2).at(0).body.wind));
   }
-  CHECK(contacts_of_rows({line_of_fit("shift", laws()[0], {one, {}}, false)}, 2).empty());
+  CHECK(contacts_of_rows({line_of_fit("shift", {}, {one, {}})}, 2).empty());
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {
