@@ -109,28 +109,22 @@ samples: bin/simulate
 	bin/simulate --scene samples/SR.toml $(sensor) --seed 4 >samples/SR.csv
 	samples/exports/make.sh samples/exports
 
-# Figures of the paper: each is drawn by the script of its name in samples/figures, which runs the
-# tools that it names.
+# Figures of the paper: each is drawn by the script of its name in samples/figures.
 figure  := $(patsubst samples/figures/%.sh,%,\
              $(filter-out %/draw.sh,$(wildcard samples/figures/*.sh)))
 figures: $(figure:%=figures/%.svg) $(figure:%=figures/%.png)
-empty   :=
-space   := $(empty) $(empty)
-tools_in = $(addprefix bin/,$(shell \
-             grep -v '^\#' $1 | grep -owE '$(subst $(space),|,$(tool))' | sort -u))
-drawn_from := samples/figures/draw.sh \
-              $(wildcard samples/figures/*.gp samples/*.csv samples/*.toml)
+drawn_from := $(addprefix bin/,$(tool)) $(wildcard samples/*.sh samples/*.csv samples/*.toml) \
+              samples/figures/draw.sh $(wildcard samples/figures/*.gp)
 define draw
 	@command -v gnuplot >/dev/null || \
 	  { echo 'gnuplot is not installed; make setup figures installs it' >&2; exit 1; }
 	@mkdir -p $(@D)
-	PATH="$$PWD/bin:$$PATH" $< -t $1 >$@
+	$< -t $1 >$@
 endef
-.SECONDEXPANSION:
-figures/%.svg: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
+figures/%.svg: samples/figures/%.sh $(drawn_from)
 	$(call draw,svg)
-figures/%.png: samples/figures/%.sh $$(call tools_in,samples/figures/$$*.sh) $(drawn_from)
-	$(call draw,pngcairo)
+figures/%.png: samples/figures/%.sh $(drawn_from)
+	$(call draw,png)
 
 # One page with the table, the energy check and the figures in it; those of work-precision too
 # where they have been made. It links to the manual pages where mandoc can make them.

@@ -135,11 +135,12 @@ rubber they are not; what does that say about the force? Why does the shell roll
 cylinder of equal mass and radius?
 HTML
 drawn fig1-stop "Fig. 1, the stop: a brief roll backwards" <<'HTML'
-The last half second of the cylinder on rubber. The paper reports that the bodies roll backwards for
+The cylinder on rubber near its stop. The paper reports that the bodies roll backwards for
 a moment before they rest. A shift that depends on the velocity alone cannot do that: it vanishes
 with the velocity. One that needs a rolled length of half a millimetre to build up and to vanish
 does, for at <i>v</i> = 0 the bulge is still there and pushes back. This is beyond the paper. The
-sonar, with its steps of a millimetre, only just sees it.
+sonar, with its steps of a millimetre, only just sees it: below the picture stands what
+<code>samples/roll-back.sh</code> measures.
 HTML
 cat <<'HTML'
 <h2>The forces, and the point where they act</h2>
@@ -156,13 +157,16 @@ HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
 All lengths are in proportion, and so are all forces but the one whose arrow has a break. The shift
 is so small beside the radius that
-it takes the enlarged panel to see it; the horizontal force, too, is small beside the weight. The
+it takes the enlarged panels to see it; the horizontal force, too, is small beside the weight. Both
+make the force <i>F</i><sub>S</sub> of the mat. It is less off the vertical than the line from P to the
+axis is, and so its line passes ahead of the axis: one force slows the translation and the rotation. The
 torque of <i>F</i><sub>H</sub> undoes a part of that of <i>F</i><sub>N</sub>; what is left slows the
-rotation. (The outline of the mat in front of P is only sketched.) <i>To discuss:</i> where would P
+rotation. (The outline of the mat is only sketched.) <i>To discuss:</i> where would P
 have to be if the body sped up?
 HTML
 drawn fig3 "Fig. 3: the velocity of P, to scale" <<'HTML'
-As a point of the rolling body, P turns about the lowest point. It moves down into the mat with
+As a point of the rolling body, P, which lies <i>A R</i> below the axis, turns about the lowest point.
+It moves down into the mat with
 (<i>D</i>/<i>R</i>) <i>v</i>, Eq. 20, and forward with (1 − <i>A</i>) <i>v</i> only, Eq. 16: a small
 quantity of the first and one of the second order, so that each needs a panel of its own. <i>To
 discuss:</i> which of the two carries the energy into the mat?
@@ -238,8 +242,10 @@ Horizontal momentum flows from the body to the mat and falls from the speed <i>v
 that of P. The power it releases, <i>P</i><sub>T1</sub>, pumps angular momentum into the body,
 <i>P</i><sub>R1</sub>. Angular momentum leaves again, falls from ω to nothing and releases
 <i>P</i><sub>R2</sub>, which pumps vertical momentum from P, moving down, to the body at rest in
-height, <i>P</i><sub>T2</sub>. With these two momenta the energy currents <i>I</i><sub>E1</sub> and
-<i>I</i><sub>E2</sub> reach the mat, where everything is dissipated. The arrows are as wide as
+height, <i>P</i><sub>T2</sub>; gravity takes it off there. With these two momenta the energy currents
+<i>I</i><sub>E1</sub> and <i>I</i><sub>E2</sub> reach the mat, where they fall to nothing and release
+<i>P</i><sub>T3</sub> and <i>P</i><sub>T4</sub>: everything is dissipated. Above stand what the body stores
+and how much of each momentum flows. The arrows are as wide as
 <code>energy-ledger</code> computes their powers; what leaves the body or is released counts as
 positive. <i>To discuss:</i> nearly all of the energy goes through the rotation, although two thirds
 of it are translational. How?

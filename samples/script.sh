@@ -4,19 +4,42 @@
 #
 #   . "$(dirname "$0")/script.sh"
 #
-# It prints the comment at the top of the script for -h and --help, puts the tools of this source
-# before those on the PATH, and has the functions below.
-help() { sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$0"; }
+# It prints the comment at the top of the script for -h and --help, and that of the file $also where
+# that is set, puts the tools of this source before those on the PATH, and has the functions below.
+help() {
+  for page in "$0" ${also:+"$also"}; do sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$page"; done
+}
 case ${1-} in -h | --help) help; exit ;; esac
 PATH=$(cd "$(dirname "$0")" && while [ ! -e script.sh ]; do cd ..; done && cd .. && pwd)/bin:$PATH
 
 wrong() { printf '%s: %s\n' "${0##*/}" "$1" >&2; exit 2; }
 is_count() { case $1 in '' | *[!0-9]* | ?????????*) false ;; esac; }
 is_number() { printf '%s\n' "$1" | grep -qxE '[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?'; }
+# KEY of a scene: its value, and that with its standard uncertainty: 0.5+-0.005.
+given() { sed -n "s/^$1 *= *//p" "$2" | tr -d '" '; }
+value() { given "$1" "$2" | sed 's/+-.*//'; }
+# Of a list, K or R, the value of run number $2.
+of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
+# columns FILE NAME...: these columns, with nothing else.
+columns() {
+  file=$1
+  shift
+  awk -F '\t' -v names="$*" '
+    BEGIN { n = split(names, want, " ") }
+    /^##/ { next }
+    /^# / {
+      sub(/^# /, "")
+      for (i = 1; i <= NF; i++)
+        for (j = 1; j <= n; j++) if ($i == want[j] || index($i, want[j] "[") == 1) at[j] = i
+      next
+    }
+    NF { for (j = 1; j <= n; j++) printf "%s%s", $at[j], j < n ? "\t" : "\n" }' "$file"
+}
 # A folder of this run, $scratch, which is removed when it ends. Nothing else is.
 make_scratch() {
+  scratch=''
+  trap '[ -z "$scratch" ] || rm -rf "$scratch"' EXIT
+  trap 'exit 130' INT TERM
   scratch=$(mktemp -d) && [ -d "$scratch" ] || wrong 'mktemp makes no folder: see TMPDIR'
   case $scratch in /*) ;; *) scratch=$PWD/$scratch ;; esac
-  trap 'rm -rf "$scratch"' EXIT
-  trap 'exit 130' INT TERM
 }

@@ -1,72 +1,204 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
-# What the scripts of the figures share; each sources it first. They take
+# Options of every figure; all but -t are for runs of your own, a FILE or more:
 #
-#   -t svg | pngcairo   the terminal of gnuplot (svg); the picture goes to standard output
-#   -K K[,K...] -R R[,R...] --slope S -c x|v --use NAME=COLUMN
-#                       as for the tools, where a figure draws runs of your own
-#   -h                  print the comment at the top of the script
-#
-# and leave their operands in "$@". The tools are those of this source, or on the PATH. A script
-# works in a folder of its own with copies of the samples, so that no name of a file or folder gets
-# into the code of gnuplot.
+#   -t svg|png|pdf     the form of the picture (svg), which goes to standard output
+#   -K K -R R -m M     shape factor, radius [m] and mass [kg] of what rolled, each one number, or one
+#                      for each run: 0.5,0.83; K and R may have an uncertainty: 0.5+-0.005
+#   -c x|v             draw the positions (x) or the velocities (v); x where there are both
+#   --use NAME=COLUMN  which column serves as t, x or v; may be repeated
+#   --run N            take this run of the files alone
+#   --law LAW          fit this law, of those that fitpower --report compares: d0+d2*v^2
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
-. "$(dirname "${BASH_SOURCE[0]}")/../script.sh"
-terminal=svg K='' R='' slope=0 column='' use=()
-while getopts t:K:R:c:-: option; do
-  # --slope S, and --slope=S.
-  if [ "$option" = - ]; then
-    option=--${OPTARG%%=*}
+also=${BASH_SOURCE[0]}
+figures=$(cd "$(dirname "$also")" && pwd)
+samples=${figures%/*}
+. "$samples/script.sh"
+# A script that sources this has said in `takes` which of --slope, --seconds and --at it has too,
+# and in `needs` what has to be said of a body. Its operands are in `files`.
+form=svg K='' R='' m='' slope=${slope-0} at='' column='' law=() use=() run=() of_own='' count=0
+default_slope=$slope
+while getopts t:K:R:m:c:-: option; do
+  if [ "$option" = - ]; then  # --slope S, or --slope=S
+    option=-${OPTARG%%=*}
     case $OPTARG in
       *=*) OPTARG=${OPTARG#*=} ;;
-      slope | use) OPTARG=${!OPTIND-} OPTIND=$((OPTIND + 1)) ;;
+      *) OPTARG=${!OPTIND-} OPTIND=$((OPTIND + 1)) ;;
     esac
-    [ "$OPTARG" ] || option=none
+    case " use run law ${takes-} " in
+      *" ${option#-} "*) [ "$OPTARG" ] || wrong "-$option needs a value" ;;
+      *) wrong "-$option is no option of this figure; --help lists them" ;;
+    esac
   fi
   case $option in
-    t) terminal=$OPTARG ;;
+    t) form=$OPTARG ;;
+    -at) at=$OPTARG ;;
+    '?') exit 2 ;;  # getopts has said why
+    *) of_own=-$option ;;
+  esac
+  case $option in
     K) K=$OPTARG ;;
     R) R=$OPTARG ;;
+    m) m=$OPTARG ;;
     c) column=$OPTARG ;;
-    --slope) slope=$OPTARG ;;
-    --use) use+=(--use "$OPTARG") ;;
-    *) help >&2; exit 2 ;;
+    -slope) slope=$OPTARG ;;
+    -seconds) seconds=$OPTARG ;;
+    -use) use+=(--use "$OPTARG") ;;
+    -run) run=(--run "$OPTARG") ;;
+    -law) law=(--law "$OPTARG") ;;
   esac
 done
 shift $((OPTIND - 1))
-case $terminal in svg | pngcairo) ;; *) echo "$0: -t $terminal: svg or pngcairo" >&2; exit 2 ;; esac
-command -v gnuplot >/dev/null ||
-  { echo "$0: gnuplot is not installed; make setup figures installs it" >&2; exit 2; }
-# What rolled in a run of your own is not guessed, nor which of its columns is to be drawn.
-own_body() {
-  [ "$K" ] && [ "$R" ] || { echo "$0: say what rolled: -K 0.5 -R 0.04" >&2; exit 2; }
-  case $column in '' | x | v) ;; *) echo "$0: -c $column: x or v" >&2; exit 2 ;; esac
-  case $slope in *[!-+.0-9eE]*)
-    echo "$0: --slope $slope: a number, which fitpower --slope fit finds" >&2; exit 2 ;; esac
-}
-# The rows of a run with their column x or v.
-read_run() { smooth -q ${use[@]+"${use[@]}"} -c "$@"; }
+files=("$@") own=$#
+case $form in svg | png | pdf) ;; *) wrong "-t $form: svg, png or pdf" ;; esac
+case $column in '' | x | v) ;; *) wrong "-c $column: x or v" ;; esac
+is_number "$slope" || [ "$slope" = "$default_slope" ] ||
+  wrong "--slope $slope: a number, which fitpower --slope fit finds"
+[ -z "$at" ] || is_number "$at" || wrong "$at is not a time in seconds"
+[ $own -gt 0 ] || [ -z "$of_own" ] || wrong "$of_own is for a run of your own: name its FILE"
+command -v gnuplot >/dev/null || wrong 'gnuplot is not installed; make setup figures installs it'
 make_scratch
-figures=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-samples=${figures%/*}
-cp "$figures"/*.gp "$samples"/*.csv "$samples"/*.toml "$scratch"
-called_from=$PWD
-cd "$scratch"
+cp "$figures"/*.gp "${scratch:?}"
+
+
+# prepare SAMPLE...: reads the FILEs, or these samples, and goes to the folder of this run. There
+# `readings` has the runs, roll1 the free roll of the first, and so on up to roll$count, and `names`
+# their names. What the tools say of runs of your own reaches the user.
+prepare() {
+  local i name file
+  quiet=''
+  if [ $own = 0 ]; then
+    quiet=1
+    for name; do
+      files+=("$samples/$name.csv")
+      K+=${K:+,}$(value shape-factor "$samples/$name.toml")
+      R+=${R:+,}$(value radius "$samples/$name.toml")
+      m+=${m:+,}$(value mass "$samples/$name.toml")
+    done
+  fi
+  needs=${needs--K 0.5 -R 0.04}
+  for i in K R m; do
+    case $needs in *-$i*) [ "${!i}" ] || wrong "say what rolled: $needs" ;; esac
+  done
+  name=${files[0]##*/}
+  # What can be read but once is copied: it is read more than once here.
+  for i in "${!files[@]}"; do
+    file=${files[i]}
+    if [ "$file" = - ] || [ -p "$file" ] || [ -c "$file" ]; then
+      cat -- "$file" >"$scratch/operand$i"
+      files[i]=$scratch/operand$i
+    fi
+  done
+  if [ "$column" != v ] && take x >"$scratch/readings"; then column=x route=position
+  elif [ "$column" != x ] && take v >"$scratch/readings"; then column=v route=velocity
+  else column=''; fi
+  cat "$scratch/said" >&2
+  [ "$column" ] || exit 2
+  cd "$scratch"
+  smooth ${quiet:+-q} --coast -c $column readings >rolls
+  awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("roll" n) }' rolls
+  sed -n 's/^## run //p' rolls | grep . >names || printf '%s\n' "${name//[[:cntrl:]]/?}" >names
+  sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' names >short && mv short names
+  # In a picture a long name loses its middle.
+  while IFS= read -r name; do
+    [ ${#name} -le 24 ] || name=${name:0:11}…${name: -12}
+    count=$((count + 1))
+    printf '%s' "$name" >"name$count"
+  done <names
+}
+take() {
+  smooth ${quiet:+-q} -w 1 -c "$1" ${use[@]+"${use[@]}"} ${run[@]+"${run[@]}"} -- "${files[@]}" \
+    2>"$scratch/said"
+}
+one_run() { [ "$count" = 1 ] || wrong "this figure is of one run, not of $count: choose it with --run"; }
+
+# What rolled in run number $1, as options.
+body() {
+  body=(-K "$(of_run "$K" "$1")" -R "$(of_run "$R" "$1")")
+  [ "$slope" = fit ] || body+=("--slope=$slope")  # else it is in the row of the fit
+}
+# fit FILE: the law of each run in it as fit1, fit2 and so on.
+fit() {
+  fitpower ${quiet:+-q} --each -K "$K" -R "$R" "--slope=$slope" ${law[@]+"${law[@]}"} "$@" >fits
+  awk '/^##/ { next } /^#/ { names = $0; next } { print names "\n" $0 >("fit" ++n) }' fits
+}
+# The energies of one run: `measured`, by velocities that are the slopes of parabolas, and `fitted`, with
+# t, E_trans, E_rot, E_diss, W_g, v; $parts of the four energies count, from $start on.
+balance() {
+  local rows
+  one_run
+  fit --route $route rolls
+  body 1
+  rows=$(columns roll1 t | awk -v width="$seconds" 'NR == 1 { first = $1 } { last = $1 }
+    END { half = int(width * (NR - 1) / (last - first) / 2)
+      if (half < 1) half = 1
+      if (2 * half + 1 > NR) half = int((NR - 1) / 2)
+      print 2 * half + 1 }')
+  if [ $column = x ]; then differentiate -q -c x -M savgol -w "$rows" roll1
+  else smooth -q -c v -M savgol -w "$rows" roll1; fi >moving
+  simulate ${quiet:+-q} --law fit1 "${body[@]}" --at roll1 --columns t,v >rolling
+  for run in moving:measured rolling:fitted; do
+    energy-ledger ${quiet:+-q} -m "$m" --law fit1 "${body[@]}" --columns E_trans,E_rot,E_diss,W_g "${run%:*}" |
+      columns - t E_trans E_rot E_diss W_g v >"${run#*:}"
+  done
+  start=$(columns roll1 t | sed -n 1p) parts=4
+  [ "$slope" != 0 ] || parts=3
+}
+# The law of the row $1 for people: a = 1.872 ± 0.022 mm, b = 0.217 ± 0.007.
+law_of() {
+  awk -F '\t' '
+    /^#/ { sub(/^# /, ""); split($0, name); next }
+    { for (i = 1; i < NF; i++) {
+        unit = name[i]
+        sub(/\[.*/, "", name[i])
+        if (name[i] ~ /^(corr.*|rms)$/) break
+        if (name[i] ~ /^sigma_/ || name[i + 1] !~ "^sigma_") continue
+        unit = unit ~ /\[/ ? substr(unit, length(name[i]) + 2) : ""
+        sub(/\]$/, "", unit)
+        size = unit == "m" ? 1000 : 1
+        digits = 3
+        while (digits < 9 && $(i + 1) > 0 && size * $(i + 1) * 10^digits < 1) digits++
+        number = digits > 6 ? "%.4g ± %.2g%s" : "%." digits "f ± %." digits "f%s"
+        printf "%s%s = " number, text++ ? ",  " : "", name[i], size * $i,
+          size * $(i + 1), unit == "" ? "" : size == 1 ? " " unit : " mm"
+      } }
+    END { print "" }' "$1"
+}
+# The rows of a smoothed run whose windows are whole: those near its ends are means over fewer rows,
+# and noisier. Of a run that is shorter than two windows all rows.
+whole_windows() {
+  awk -F '\t' -v width="$seconds" '
+    /^##/ { print; next }
+    /^#/ { print; sub(/^# /, ""); for (i = 1; i <= NF; i++) if ($i ~ /^t\[/) t = i; next }
+    { row[++n] = $0; time[n] = $t }
+    END {
+      margin = time[n] - time[1] > 2 * width ? 0.499 * width : 0
+      for (i = 1; i <= n; i++)
+        if (time[i] - time[1] >= margin && time[n] - time[i] >= margin) print row[i]
+    }'
+}
 
 # draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. $title is
 # the title of the SVG, which readers for the blind and browsers tell. A PNG has 240 dots an inch
-# where the SVG has 96. The symbols of the two terminals are made alike: those of svg are thin, those
-# of pngcairo small.
+# where the SVG has 96. The symbols of the terminals are made alike: those of svg are thin, those of
+# cairo small.
 draw() {
-  local size=$1,$2
-  [ "$terminal" = svg ] ||
-    size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 1.95 linewidth 2.5 pointscale 3.2"
+  local terminal=svg size=$1,$2 font=14
+  cd "$scratch"
+  case $form in
+    png)
+      terminal=pngcairo
+      size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 1.95 linewidth 2.5 pointscale 3.2" ;;
+    pdf)
+      terminal=pdfcairo
+      size="$(awk "BEGIN { print $1 / 96 \"in,\" $2 / 96 \"in\" }") fontscale 0.75 linewidth 1" ;;
+  esac
   LC_ALL=C.UTF-8 gnuplot -d \
-    -e "set terminal $terminal size $size font 'sans-serif,14' background 'white'" \
-    -e "${3:-}" style.gp /dev/stdin |
-    if [ "$terminal" = svg ]; then
+    -e "set terminal $terminal size $size font 'sans-serif,$font' background 'white'" \
+    -e "own = $own; count = ${count-1}; ${3:-}" style.gp /dev/stdin |
+    if [ "$form" = svg ]; then
       sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/
         s|<title>Gnuplot</title>|<title>${title:?}</title>|; s|<title>gnuplot_[^<]*</title>||"
     else
@@ -86,19 +218,27 @@ assignments() {
     !/^#/ { for (i = 1; i <= NF; i++) printf "%s = %s; ", name[i], $i }'
 }
 
-# scene FILE: its mass, radius and shape factor, likewise, without their uncertainties.
-scene() {
-  sed -n 's/ *+-.*//; s/"//g; s/^mass *=/m =/p; s/^radius *=/R =/p; s/^shape-factor *=/K =/p' "$1" |
-    tr '\n' ';'
-}
-
-# The rows of smooth -w 11 whose windows are whole: the first and last five means of each run are
-# over fewer rows and noisier.
-whole_windows() {
-  awk '
-    function run_ends(  i) { for (i = 6; i <= n - 5; i++) print row[i]; n = 0 }
-    /^#/ { if (n) run_ends(); print; next }
-    /^$/ { run_ends(); print; next }
-    { row[++n] = $0 }
-    END { run_ends() }'
+# instant T COLUMNS: the roll at one instant, in exact geometry, as assignments in `now`, with what
+# energy-ledger computes: of a run of your own at --at, or else where its free roll begins; of the
+# scene CR at --at or T. A roll towards falling x is mirrored.
+instant() {
+  name='The cylinder on rubber'
+  if [ $own = 0 ]; then
+    at=${at:-$1}
+    K=$(value shape-factor "$samples/CR.toml") R=$(value radius "$samples/CR.toml")
+    m=$(value mass "$samples/CR.toml")
+    printf 't\n%s\n' "$at" | simulate --scene "$samples/CR.toml" --exact --at - >"$scratch/row"
+  else
+    prepare
+    one_run
+    fit --exact --route $route rolls
+    at=${at:-$(columns fit1 t0)} name=$(cat name1)
+    printf 't\n%s\n' "$at" | simulate --law fit1 -K "$K" -R "$R" --exact --at - >row
+  fi
+  now="K = ${K%%+-*}; R = ${R%%+-*}; m = $m; $(awk -F '\t' -v OFS='\t' '
+      /^#/ || $3 !~ /^-/ { print; next }
+      { for (i = 2; i <= NF; i++) if (!sub(/^-/, "", $i)) $i = "-" $i; print }' "$scratch/row" |
+    energy-ledger -m "$m" -K "$K" -R "$R" --exact --temperature 293 --columns "$2" | assignments)"
+  case $now in *' v = 0; '*) wrong "at t = $at s the body is at rest" ;; esac
+  printf '%s\n' "$name" >"$scratch/name"
 }

@@ -1,36 +1,49 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 1 near the stop: the cylinder on rubber rolls backwards before it rests. The law D(v) alone
-# cannot show it; a bulge that remembers the last half millimetre does. This length is not fitted:
-# it is the one of which the run was made. `make figures/fig1-stop.svg`
+# Fig. 1 near the stop, where the bodies roll backwards for a moment before they rest. The law D(v)
+# alone cannot show it; a bulge that remembers a rolled length does. That of the sample is not fitted:
+# it is the one of which the run was made. What roll-back.sh measures stands below.
+#
+#   fig1-stop.sh [OPTION]... [FILE] >fig1-stop.svg      the cylinder on rubber, or a run of your own
 . "$(dirname "$0")/draw.sh"
-roll() { simulate --law fit -K 0.5 -R 0.04 --columns t,x,v "$@"; }
-smooth -q --coast -c x -w 1 CR.csv >roll
-fitpower -q --route position -K 0.5 -R 0.04 roll >fit
-roll --until 5.6 >law
-roll --until 5.6 --dt 0.005 --memory 5e-4 --damping 0.02 >memory
-differentiate -q -c x CR.csv >raw
+prepare CR
+one_run
+[ $column = x ] || wrong 'needs positions'
+fit --route position rolls
+body 1
+roll() { simulate ${quiet:+-q} --law fit1 "${body[@]}" --columns t,x,v "$@"; }
+roll >law
 # Times are from the stop that the law alone predicts; positions from the place of rest, for the
 # run the mean of its last second.
-stop=$(roll | awk 'END { print $1 }')
-rest=$(tail -n 25 raw | awk '{ sum += $2 } END { print sum / NR }'
-  for file in law memory; do awk 'END { print $2 }' "$file"; done)
-title='Fig. 1, the stop: velocity and position near the stop, with the brief roll backwards'
-draw 520 680 "stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
-set multiplot layout 2,1 margins 0.15,0.98,0.09,0.98 spacing 0.1
+stop=$(columns law t | tail -n 1) end=$(columns readings t | tail -n 1)
+roll --until "$end" --dt 0.005 >law
+# Of a run of your own no memory is known.
+if [ "$own" = 0 ]; then roll --until "$end" --dt 0.005 --memory 5e-4 --damping 0.02 >memory; else cp law memory; fi
+differentiate -q -c x readings >moving && columns moving t x v >raw
+"$samples/roll-back.sh" -K "$K" -R "$R" readings >back 2>said || { cat said >&2 && exit 2; }
+rest=$(columns moving t x | awk -v end="$end" '$1 > end - 1 { sum += $2; n++ } END { print sum / n }'
+  tail -n 1 law | cut -f 2
+  tail -n 1 memory | cut -f 2)
+sed 's/^/The roll backwards: /; s/+-/±/g; s/, goes/,\
+goes/' back | fold -s -w 72 >note
+title='Fig. 1, the stop: velocity and position near the stop, with the roll backwards'
+draw 520 720 "stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
+set multiplot layout 2,1 margins 0.15,0.98,0.14,0.98 spacing 0.1
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5
 set xlabel 'time after the stop that the law D(v) alone predicts / s'
 after(t) = t - stop
+sign = system("awk '/^[^#]/ { print ($3 < 0 ? -1 : 1); exit }' law") + 0
+mm(x, i) = 1e3*sign*(x - word(rest, i))
+name = own ? name(1) : label[1]
 set ylabel 'velocity v / (mm/s)' offset 0.7, 0; set yrange [-22:110]
-plot 'raw' using (after($1)):(1e3*$4) with points ls 1 ps 0.6 \
-       title 'C on rubber: differences of the positions', \
-     'memory' using (after($1)):(1e3*$3) with lines ls 1 \
+plot 'raw' using (after($1)):(1e3*sign*$3) with points ls 1 ps 0.6 title name.': differences of the positions' noenhanced, \
+     for [i=1:!own] 'memory' using (after($1)):(1e3*$3) with lines ls 1 \
        title 'with a memory of 0.5 mm (given, not fitted)', \
-     'law' using (after($1)):(1e3*$3) with lines ls 12 title 'fitted law alone'
+     'law' using (after($1)):(1e3*sign*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
-plot 'raw' using (after($1)):(1e3*($2-word(rest,1))) with points ls 1 ps 0.6 \
-       title 'C on rubber: the positions', \
-     'memory' using (after($1)):(1e3*($2-word(rest,3))) with lines ls 1 \
+set label 1 system('cat note') at screen 0.02, screen 0.055 left font ',12'
+plot 'raw' using (after($1)):(mm($2, 1)) with points ls 1 ps 0.6 title name.': the positions' noenhanced, \
+     for [i=1:!own] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 \
        title 'with a memory of 0.5 mm (given, not fitted)', \
-     'law' using (after($1)):(1e3*($2-word(rest,2))) with lines ls 12 title 'fitted law alone'
+     'law' using (after($1)):(mm($2, 2)) with lines ls 12 title 'fitted law alone'
 PLOT

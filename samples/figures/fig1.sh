@@ -1,30 +1,41 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 1, v(t) of the four experiments: differences of the sensor's positions, the same smoothed,
-# and the trajectory that fits the positions, both of the free roll. `make figures/fig1.svg`, or
-# samples/figures/fig1.sh >fig1.svg
+# Fig. 1, v(t): differences of the sensor's positions, the same smoothed over a window, and the
+# trajectory that fits the positions, both of the free roll.
+#
+#   fig1.sh [OPTION]... [FILE]... >fig1.svg      the four experiments, or runs of your own
+#
+#   --slope S          rise of the mat in metres a metre along growing x (0)
+#   --seconds S        width of the window (0.44)
+takes='slope seconds' seconds=0.44
 . "$(dirname "$0")/draw.sh"
-run() {  # NAME K
-  differentiate -q -c x "$1.csv" >"$1.raw"
-  smooth -q --coast -c x -w 1 "$1.csv" >"$1.roll"
-  differentiate -c x "$1.roll" | smooth -w 11 | whole_windows >"$1.v"
-  fitpower -q --route position -K "$2" -R 0.04 "$1.roll" |
-    simulate --law - -K "$2" -R 0.04 --columns t,v >"$1.line"
-}
-run CR 0.5; run SR 0.83; run CF 0.5; run SF 0.83
-title='Fig. 1: the velocity of the four experiments against time'
-draw 520 680 <<'PLOT'
-set multiplot layout 2,1 margins 0.14,0.98,0.09,0.98 spacing 0.1
-set xrange [0.8:9.2]; set yrange [-0.05:0.55]; set xzeroaxis lt -1 lw 0.5
+prepare CR SR CF SF
+fit --route $route rolls
+velocities() { if [ "$column" = x ]; then differentiate -q -c x "$@"; else cat "$@"; fi; }
+awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("readings" n) }' readings
+for i in $(seq "$count"); do
+  body "$i"
+  velocities "readings$i" >moving && columns moving t v >"raw$i"
+  velocities "roll$i" | smooth -q -c v --seconds "$seconds" | whole_windows >smoothed
+  columns smoothed t v >"v$i"
+  simulate --law "fit$i" "${body[@]}" --at "roll$i" --columns t,v >"line$i"
+done
+title='Fig. 1: the velocity against time, measured and by the fitted law'
+draw 520 $((own ? 500 : 680)) <<'PLOT'
+set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
-of(i, kind) = word(runs, i) . kind
-do for [mat = 0:1] {
-  plot for [i = 2*mat+1:2*mat+2] of(i, '.raw') using 1:4 with points pt 7 ps 0.3 lc rgb grey \
-         notitle, \
-       for [i = 2*mat+1:2*mat+2] of(i, '.v') using 1:4 every 2 with points ls i ps 0.6 notitle, \
-       for [i = 2*mat+1:2*mat+2] of(i, '.line') with lines ls 10+i notitle, \
-       for [i = 2*mat+1:2*mat+2] keyentry with points ls i ps 0.8 title label[i], \
-       for [i = 2*mat+1:2*mat+2] keyentry with lines ls 10+i title body[i].', fitted trajectory', \
+panels = own ? 1 : 2
+set multiplot layout panels,1 margins 0.14,0.97,own ? 0.26 : 0.09,0.98 spacing 0.1
+if (own) { set key outside center bottom horizontal samplen 2 width -1 font ',12' }
+if (!own) { set xrange [0.8:9.2]; set yrange [-0.05:0.55] }
+of(kind, i) = sprintf('%s%d', kind, i)
+do for [panel = 1:panels] {
+  first = own ? 1 : 2*panel - 1; last = own ? count : 2*panel
+  plot for [i = first:last] of('raw', i) using 1:2 with points pt 7 ps 0.3 lc rgb grey notitle, \
+       for [i = first:last] of('v', i) using 1:2 every thin(of('v', i), 40) with points ls line(i) ps 0.6 notitle, \
+       for [i = first:last] of('line', i) with lines ls (own ? 11 : 10 + i) notitle, \
+       for [i = first:min(last, first + named - 1)] keyentry with points ls line(i) ps 0.8 title name(i) noenhanced, \
+       keyentry with lines ls 11 title 'fitted trajectory', \
        keyentry with points pt 7 ps 0.3 lc rgb grey title 'before smoothing'
 }
 PLOT

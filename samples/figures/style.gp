@@ -21,8 +21,20 @@ runs = 'CR SR CF SF'
 array label[4] = ['C on rubber', 'S on rubber', 'C on felt', 'S on felt']
 array body[4] = ['C', 'S', 'C', 'S']
 number(x) = (x < 0 ? '−' : '').sprintf('%.3g', abs(x))
+# 13.5 N, 13.8 mN m, 14.7 kN
+quantity(x, unit) = abs(x) >= 1e6 ? number(x/1e6).' M'.unit : abs(x) >= 1e3 ? number(x/1e3).' k'.unit : \
+  x == 0 || abs(x) >= 0.1 ? number(x).' '.unit : abs(x) >= 1e-4 ? number(1e3*x).' m'.unit : \
+  number(1e6*x).' µ'.unit
 # For runs of somebody's own, after the four experiments.
 set style line 5 lc rgb '#009E73' lw 2 dt 1 pt 9 ps 0.6
 set style line 6 lc rgb '#009E73' lw 2 dt 2 pt 4 ps 0.55
 set style line 7 lc rgb '#CC79A7' lw 2 dt 1 pt 13 ps 0.7
 set style line 8 lc rgb '#000000' lw 2 dt 2 pt 6 ps 0.55
+# Runs by their number: those of somebody's own each in another colour.
+array style[8] = [1, 3, 5, 7, 2, 4, 6, 8]
+line(i) = own ? style[(i - 1)%8 + 1] : i
+named = count > 16 ? 16 : count
+name(i) = own ? system(sprintf('cat name%d', i)) : label[i]
+min(x, y) = x < y ? x : y; max(x, y) = x > y ? x : y
+# Every so many rows of a file, so that some `most` are drawn.
+thin(file, most) = int(system(sprintf("grep -c '^[^#]' %s", file)))/most + 1

@@ -41,7 +41,8 @@ for script in "${scripts[@]}"; do
   case $script in
     */lab.sh) operands=(-K 0.5 -R 0.04 -o "$scratch/made" runs) ;;
     */report.sh) operands=(figures) ;;
-    */residuals.sh | */fig4.sh) operands=(-K 0.5 -R 0.04 runs/first.csv) ;;
+    */figures/*.sh) operands=(-K 0.5 -R 0.04 -m 1.375 runs/first.csv) ;;
+    */roll-back.sh) operands=(-K 0.5 -R 0.04 runs/first.csv) ;;
     */exports/make.sh) operands=("$scratch/home") ;;
     */live.sh) operands=(-K 0.5 -R 0.04 -T dumb /nonexistent) ;;
     cmd/install/install.sh)

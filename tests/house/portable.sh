@@ -58,16 +58,15 @@ everything() {
   done
   samples/exports/make.sh "$2/exports" || complain exports/make.sh
   samples/shape-factor.sh >"$2/shape-factor" || complain shape-factor.sh
+  samples/roll-back.sh -K 0.5 -R 0.04 samples/CR.csv >"$2/roll-back" 2>/dev/null || complain roll-back.sh
   samples/lab/lab.sh -K 0.5 -R 0.04 -o "$2/results" samples/C?.csv >"$2/lab" 2>"$2/lab-said" ||
     complain lab.sh
   samples/law.sh "$2/lab" >"$2/law" || complain law.sh
   if command -v mandoc >/dev/null; then cmd/install/html.sh "$2/man" || complain html.sh; fi
   if command -v gnuplot >/dev/null; then
-    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn; do
+    for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn residuals; do
       samples/figures/$name.sh >"$2/$name.svg" || complain "$name.sh"
     done
-    samples/figures/residuals.sh -K 0.5 -R 0.04 samples/CR.csv >"$2/residuals.svg" ||
-      complain residuals.sh
     samples/report.sh "$2" >"$scratch/report" || complain report.sh
     # Without the times that the solvers took.
     grep -v '^<tr><td>[a-z0-9]*</td>' "$scratch/report" >"$2/report"

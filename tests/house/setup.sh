@@ -100,7 +100,7 @@ ln -sf "$(command -v make)" "$(command -v nproc)" "$(command -v grep)" "$(comman
   "$(command -v mkdir)" "$(command -v env)" "$(command -v sh)" "$scratch/bare"
 said=$(cd "$scratch/plain" &&
   PATH="$scratch/bare" make -o bin/smooth -o bin/differentiate -o bin/shift-from-accel \
-    -o bin/fitpower figures/fig4.svg 2>&1) && complain "a figure without gnuplot: exit 0"
+    -o bin/fitpower -o bin/simulate -o bin/energy-ledger figures/fig4.svg 2>&1) && complain "a figure without gnuplot: exit 0"
 grep -q 'make setup figures installs it' <<<"$said" || complain "without gnuplot: $said"
 [ ! -e "$scratch/plain/figures" ] || complain "without gnuplot: $(ls "$scratch/plain/figures")"
 exit $wrong

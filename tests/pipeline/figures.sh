@@ -42,21 +42,21 @@ for script in samples/figures/*.sh; do
       complain "$name: not well-formed"
   fi
 done
-samples/figures/fig2.sh -t pngcairo | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') ||
-  complain "fig2: no PNG"
-has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'C, fitted trajectory' \
+samples/figures/fig2.sh -t png | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\n') || complain 'fig2: no PNG'
+samples/figures/fig4.sh -t pdf | head -c 5 | cmp -s - <(printf %%PDF-) || complain 'fig4: no PDF'
+has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'fitted trajectory' \
   'before smoothing'
 has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
   'with a memory of 0.5 mm (given, not fitted)'
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \
   'Bands: 95 % confidence of the law, not of the points.' \
-  'Points: the free roll, less five rows at each end.'
+  'Points: the free roll, less half a window of 0.44 s at each end.'
 kept=$(smooth -q --coast -c x samples/CR.csv | grep -c '^[^#]')
-has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' "$kept of 156 rows, 2 without a reading; no outlier"
+has residuals 'residual / mm' 'time t / s' 'velocity v / (m/s)' "rms 0.414 mm, scatter 0.441 mm;  $kept of 154 rows;  no outlier"
 has turn 'energy / mJ' 'velocity v / (m/s)' 'time t / s' translational rotational dissipated lifted sum \
   measured fitted
 has energy 'energy / J' 'time t / s' translational rotational dissipated sum \
-  'points: measured velocities' 'lines: fitted trajectory'
+  measured fitted
 
 # Figs. 2 and 3 by the equations, from a, b, K, R, m of the scene and v = 0.5 m/s: the numbers that
 # they say, and where the tips of their arrows are, by the lower left corner of each panel in pixels
@@ -75,14 +75,21 @@ awk 'function say(text, x) { printf "%s\n", sprintf(text, x) }
     say("3 D = %.3g mm", 1e3 * D); say("3 = %.3g mm/s", -1e3 * v * D / R);
     say("3 v(P)H = (1 - A) v = %.3g mm/s", 1e3 * (1 - A) * v)
     say("3 = %.2g mm", 1e3 * R * (1 - A))
-    d = 1e3 * D; r = 1e3 * R; p = r * (1 - A); newton = 2; speed = 50  # mm for 1 N, for 1 m/s
-    tip(2, 470, 0, 0, -58, -36, 3.45, 0, r - newton * W);
-    tip(2, 470, 0, 0, -58, -36, 3.45, d, p + newton * W)
-    tip(2, 470, 415, 15, -0.7, -1.1, 125, d + newton * F, p)
-    tip(3, 780, 0, 310, -58, -36, 3.45, speed * v, r);
-    tip(3, 780, 0, 310, -58, -36, 3.45, speed * 2 * v, 2 * r)
-    tip(3, 780, 415, 325, -0.7, -1.6, 125, d, p - speed * v * D / R)
-    tip(3, 780, 15, 15, d - 0.13, p - 0.055, 3000, d + speed * v * (1 - A), p) }' >"$scratch/geometry"
+    say("2 p = %.3g N s", 1.375 * v); say("2 L = %.3g mN m s", 1e3 * K * 1.375 * R * v)
+    say("2 τN + τH = %.3g mN m: ω falls", -1e3 * (D * W + A * R * F))
+    say("2 %.2g° off", atan2(-F, W) * 45 / atan2(1, 1))
+    say("2 FS = %.3g N,", sqrt(F^2 + W^2))
+    say("2 the line of FS, %.3g mm ahead", 1e3 * D * K / (K + A))
+    say("3 A R = %.4g mm", 1e3 * A * R)
+    d = 1e3 * D; r = 1e3 * R; p = r * (1 - A); newton = 27 / W; speed = 50  # mm for 1 N, for 1 m/s
+    tip(2, 640, 0, 60, -58, -42, 3.45, 0, r - newton * W);
+    tip(2, 640, 0, 60, -58, -42, 3.45, d, p + newton * W)
+    tip(2, 640, 415, 15, -0.43 * d, -0.62 * d, 200 / d, d + newton * F, p)
+    long = 1.3 * d - p; tip(2, 640, 415, 15, -0.43 * d, -0.62 * d, 200 / d, d + long * F / W, p + long)
+    tip(3, 780, 0, 290, -58, -42, 3.45, speed * v, r);
+    tip(3, 780, 0, 290, -58, -42, 3.45, speed * 2 * v, 2 * r)
+    tip(3, 780, 415, 325, -0.43 * d, -d, 200 / d, d, p - speed * v * D / R)
+    tip(3, 780, 15, 15, d - 390 * p / 97, -0.7 * p, 97 / p, d + speed * v * (1 - A), p) }' >"$scratch/geometry"
 for figure in 2 3; do  # the body: a black circle of 2 R in height and width
   tr -d '\n\t' <"$scratch/fig$figure.svg" | sed 's/</\n</g' |
     grep "^<path stroke='rgb(  0,   0,   0)'" | awk '
@@ -100,10 +107,11 @@ while read -r figure text; do
             BEGIN { split(want, at, " ") }
             { split($5, head, ","); if ((head[1] - at[2])^2 < 0.01 && (head[2] - at[3])^2 < 0.01) found = 1 }
             END { exit !found }' || complain "fig$figure: no arrow ends at ${text#tip }" ;;
+    p*) grep -qF "$text" "$scratch/fig$figure.text" || complain "fig$figure: no '$text'" ;;
     *) has "fig$figure" "$text" ;;
   esac
 done <"$scratch/geometry"
-[ "$(wc -l <"$scratch/geometry")" = 18 ] ||
+[ "$(wc -l <"$scratch/geometry")" = 26 ] ||
   complain "the geometry has $(wc -l <"$scratch/geometry") lines"
 
 # Fig. 5 at its own instant and at another: label after label, and the widths of the shafts in the
@@ -111,7 +119,8 @@ done <"$scratch/geometry"
 for instant in 0.5 1.5; do
   draw fig5 "$instant"
   printf 't\n%s\n' "$instant" | simulate --scene samples/CR.toml --exact --at - |
-    energy-ledger --scene samples/CR.toml --exact >"$scratch/row"
+    energy-ledger --scene samples/CR.toml --exact --columns \
+      E,p,L,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_T3,P_T4,P_diss,I_pH,I_pN,I_LH,I_LN,F_G | sed '/^# /s/\[[^]]*\]//g' >"$scratch/row"
   grep -oE "fill = 'rgb\(245, 208, 160\)' points = '[^']*" "$scratch/fig5.svg" |
     sed "s/.*'//" >"$scratch/shafts"
   awk -v instant="$instant" '
@@ -121,7 +130,7 @@ for instant in 0.5 1.5; do
       if (off(x, y)) {
         print "fig5 at " instant ": " what " is " x ", energy-ledger says " y; bad = 1 } }
     FILENAME ~ /row$/ && /^# / {
-      sub(/^# /, ""); for (i = 1; i <= NF; i++) { name[i] = $i; sub(/\[.*/, "", name[i]) }
+      sub(/^# /, ""); for (i = 1; i <= NF; i++) name[i] = $i
       next }
     FILENAME ~ /row$/ && !/^#/ {
       for (i = 1; i <= NF; i++) is[name[i]] = $i
@@ -130,15 +139,20 @@ for instant in 0.5 1.5; do
       if (before ~ /^(P[TR][12]|IE2)$/) { key = before; sub(/E/, "_E", key); sub(/^P/, "P_", key)
         compare(before, $1 / 1e3, is[key]) }
       if (before ~ /^(P[TR][12]|IE2)$/) said[before] = $1
-      if (before == "Pdiss = IE1 + IE2") {
+      if (before == "Pdiss = PT3 + PT4") {
         compare("P_diss", $2 / 1e3, is["P_diss"]); said["diss"] = $2 }
       if (/^IE1 = /) compare("I_E1", 100 * $3, int(1e5 * is["I_E1"] + 0.5))  # mW, two decimals
-      if (before ~ / J$/ && /^[0-9.]+$/) said["trans"] = $1
-      else if (("trans" in said) && !("rot" in said) && /^[0-9.]+$/) said["rot"] = $1
-      if (before ~ / J$/ && /^[0-9.]+$/ && !stored++) {
-        compare("what E_trans gives", $1 / 1e3, is["trans"])
-      }
-      if (/^ΠS = /) compare("Pi_S", 100 * $5, int(1e5 * is["P_diss"] / 293 + 0.5))
+      if (/^PT3 = /) compare("P_T3", 100 * $3, int(1e5 * is["P_T3"] + 0.5))
+      if (/^PT4 = /) compare("P_T4", $3 / 1e3, is["P_T4"])
+      if (/^I[pL][HN] = /) compare($1, $3 * ($4 == "mN" ? 1e-3 : 1), is["I_" substr($1, 2)])
+      if (/^FG = /) compare("F_G", $3, is["F_G"])
+      if (/^px = /) compare("p_x", $3, is["p"])
+      if (/^L = /) compare("L", $3 / 1e3, is["L"])
+      if (/^E = /) compare("E", $7 * ($8 == "mJ" ? 1e-3 : 1), is["E"])
+      if (/^py = 0/) stored = 1
+      if (stored && /^[0-9.]+$/ && !("trans" in said)) { said["trans"] = $1; compare("what E_trans gives", $1 / 1e3, is["trans"]) }
+      else if (stored && /^[0-9.]+$/ && !("rot" in said)) said["rot"] = $1
+      if (/^ΠS = /) compare("Pi_S", $5 / 1e3, is["P_diss"] / 293)
       before = $0; next }
     { split($1, first, ","); split($7, last, ",");
       width[FNR] = sqrt((first[1] - last[1])^2 + (first[2] - last[2])^2) }
@@ -149,7 +163,7 @@ for instant in 0.5 1.5; do
           (said["PT1"] + said["rot"] - said["PR2"])^2 > 1e-9) {
         print "fig5: its numbers do not add up:", said["trans"], said["rot"], said["PR2"], said["diss"]
         bad = 1 }
-      if (checks != 14) { print "fig5: " checks " of 14 numbers found"; bad = 1 }
+      if (checks != 24) { print "fig5: " checks " of 24 numbers found"; bad = 1 }
       exit bad }' "$scratch/row" "$scratch/fig5.text" "$scratch/shafts" || wrong=1
 done
 
@@ -162,7 +176,7 @@ frame=$(axes fig4)
 i=0
 for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
   i=$((i + 1))
-  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth -w 11 |
+  smooth -q --coast -c x -w 1 "samples/${run%:*}.csv" | differentiate -c x | smooth --seconds 0.44 |
     differentiate |
     shift-from-accel -K "${run#*:}" -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
   curve $i >"$scratch/band"
@@ -192,91 +206,6 @@ for run in CR:0.5 SR:0.83 CF:0.5 SF:0.83; do
       exit bad || checks != 2 }' "$scratch/law" "$scratch/band" "$scratch/line" ||
         complain "fig4: $run"
 done
-
-# Runs of somebody's own: a picture of speeds alone, in another unit and under a name that is no
-# code, has the law of the route by D through the speeds as they are.
-sed 's/Time (s),.*/Time (s),Velocity (km\/h)/; 2,$s/,.*,\(.*\)/,\1/' samples/CR.csv |
-  awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 *= 3.6 }
-    { print }' >"$scratch/my_'run'; set label.1.csv"
-(cd "$scratch" && "$OLDPWD/samples/figures/fig4.sh" -K 0.5 -R 0.04 "my_'run'; set label.1.csv") \
-  >"$scratch/own.svg" || complain "fig4 of an own run: exit $?"
-# A roll towards falling x has the picture of its mirror image.
-mkdir "$scratch/mirrored"
-awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = -$2 } { print $1, $2 }' samples/CR.csv \
-  >"$scratch/mirrored/CR.csv"
-cut -d , -f 1,2 samples/CR.csv >"$scratch/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/mirrored/CR.csv" |
-  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a roll towards falling x"
-mkdir "$scratch/swapped"
-awk -F, -v OFS=, '{ print $2, $1 }' "$scratch/CR.csv" >"$scratch/swapped/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/swapped/CR.csv" |
-  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a run with x before t"
-smooth -q --coast -c v -w 11 "$scratch/my_'run'; set label.1.csv" | differentiate -c v |
-  shift-from-accel -q -K 0.5 -R 0.04 | fitpower -q | tail -n 1 >"$scratch/law"
-sed "s/&#39;/'/g" "$scratch/own.svg" | grep -qF "my_'ru…label.1:  a = " ||
-    complain "own run: its name is not there"
-# The picture says a, b, K and R with their uncertainties.
-samples/figures/fig4.sh -K 0.50+-0.05 -R 0.04 "$scratch/CR.csv" >"$scratch/given.svg"
-smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | differentiate |
-  shift-from-accel -K 0.50+-0.05 -R 0.04 | fitpower -q | awk -F'\t' '!/^#/ {
-    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
-grep -qF "$(cat "$scratch/said")" "$scratch/given.svg" || complain "fig4 does not say: $(cat "$scratch/said")"
-grep -qF 'K = 0.50 ± 0.05, R = 0.04 m' "$scratch/given.svg" || complain 'fig4 does not say K and R'
-# A slope, the column that is drawn, and columns by their place are those of the tools.
-simulate --scene samples/CR.toml --slope 0.002 --sensor pasco --seed 3 | cut -d , -f 1,2 >"$scratch/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 --slope 0.002 "$scratch/CR.csv" >"$scratch/sloped.svg" ||
-  complain "fig4 --slope: exit $?"
-smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth | differentiate |
-  shift-from-accel -q -K 0.5 -R 0.04 --slope 0.002 | fitpower -q | awk -F'\t' '!/^#/ {
-    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
-grep -qF "$(cat "$scratch/said")" "$scratch/sloped.svg" || complain "fig4 --slope does not say: $(cat "$scratch/said")"
-grep -qF 'slope 0.002;' "$scratch/sloped.svg" || complain 'fig4 does not say the slope'
-mkdir "$scratch/unnamed" "$scratch/speeds"
-sed '1s/.*/Uhr,Ort/' "$scratch/CR.csv" >"$scratch/unnamed/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 --slope=0.002 --use t=1 --use=x=Ort "$scratch/unnamed/CR.csv" 2>/dev/null |
-  cmp - "$scratch/sloped.svg" || complain 'fig4 --use'
-cut -d , -f 1,3 samples/CR.csv >"$scratch/speeds/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/speeds/CR.csv" >"$scratch/speeds.svg"
-cp samples/CR.csv "$scratch/speeds"
-samples/figures/fig4.sh -c v -K 0.5 -R 0.04 "$scratch/speeds/CR.csv" | cmp - "$scratch/speeds.svg" || complain 'fig4 -c v'
-# Of a roll up a mat, and of its mirror image down, the residuals are those of one fit.
-for sign in '' -; do
-  awk -F, -v OFS=, -v sign="${sign}1" 'NR > 1 && $2 != "" { $2 *= sign } { print }' "$scratch/CR.csv" >"$scratch/speeds/CR.csv"
-  samples/figures/residuals.sh -K 0.5 -R 0.04 --slope "${sign}0.002" "$scratch/speeds/CR.csv" >"$scratch/up$sign.svg" ||
-    complain "residuals --slope ${sign}0.002"
-  sed 's/slope -/slope /' "$scratch/up$sign.svg" | cmp - "$scratch/up.svg" || complain 'residuals: up and down differ'
-done
-smooth -q --coast -c x -w 1 "$scratch/CR.csv" |
-  fitpower -q --route position -K 0.5 -R 0.04 --slope 0.002 | awk '!/^#/ {
-    printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
-grep -qF "$(cat "$scratch/said")" "$scratch/up.svg" || complain "residuals --slope does not say: $(cat "$scratch/said")"
-# What rolled is not guessed.
-for figure in fig4 residuals; do
-  samples/figures/$figure.sh -K 0.5 "$scratch/CR.csv" >/dev/null 2>"$scratch/err" && complain "$figure guesses R"
-  grep -q 'say what rolled: -K 0.5 -R 0.04' "$scratch/err" || complain "$figure: $(cat "$scratch/err")"
-done
-# The key has every name, long ones without their middle, or says how many it has.
-names=()
-for i in {1..17}; do
-  names+=("$scratch/a solid cylinder on the second rubber mat, try no. $((i + 10)).csv")
-  cp "$scratch/CR.csv" "${names[-1]}"
-done
-for n in 1 4 5 9 16 17; do
-  samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n runs"
-  [ "$(grep -c '<title>a[^<]*…' "$scratch/names.svg")" = $((n > 16 ? 16 : n)) ] ||
-    complain "fig4 of $n runs: $(grep -c '<title>a[^<]*…' "$scratch/names.svg") names"
-done
-grep -q 'The key names the first 16 of 17 runs' "$scratch/names.svg" ||
-  complain 'fig4 of 17 runs does not say that it names 16'
-{ part own 3; part own 4; } | grep -oE '[ML][0-9.]+,[0-9.]+' | tr -d ML | tr ',' ' ' | awk -v frame="$(axes own)" '
-  BEGIN { split(frame, f, " ") }
-  FNR == NR { a = $1; b = $3; next }
-  { if (!n++) { x0 = $1; y0 = $2 } x1 = $1; y1 = $2 }
-  END {  # from one speed to another the law grows by their ratio to the power b
-    grows = (f[4] - y1) / (f[4] - y0); wide = (x1 - f[1]) / (x0 - f[1])
-    exit !(n > 50 && (grows / wide^b - 1)^2 < 1e-4) }' "$scratch/law" - ||
-      complain "own run: its law"
 
 # The residuals, read off the picture at two of its ticks, are those of Eq. 13 with the row of
 # fitpower; the rms is that of the row; a row that is 20 mm off is named.
@@ -335,7 +264,7 @@ read -r _ _ _ bottom _ < <(axes energy)
     if (y > high[$1]) high[$1] = y }
   END {
     sum = low["line"]
-    if (n["line"] < 100 || n["point"] < 15 || high["line"] - sum > 1 || low["point"] < 0.97 * sum || high["point"] > 1.03 * sum ||
+    if (n["line"] < 50 || n["point"] < 15 || high["line"] - sum > 1 || low["point"] < 0.97 * sum || high["point"] > 1.03 * sum ||
         low["dissipated"] > 1 || (last["dissipated"] - sum)^2 > 1) {
       print "energy: sum", sum, high["line"], "points", low["point"], high["point"], "dissipated", last["dissipated"]; bad = 1 }
     exit bad }' || wrong=1
@@ -373,10 +302,7 @@ missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 # one, draws them today.
 grep -qF 'cut -d , -f 1,2 samples/CR.csv >run.csv' README.md || complain 'README: no run.csv'
 cut -d , -f 1,2 samples/CR.csv >"$scratch/run.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" >"$scratch/run.svg"
-[ "$(samples/figures/fig4.sh -K 0.5 -R 0.04 --slope fit "$scratch/run.csv" 2>&1)" = \
-  'samples/figures/fig4.sh: --slope fit: a number, which fitpower --slope fit finds' ] ||
-  complain 'fig4.sh --slope fit is not refused in its own words'
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/run.csv" 2>/dev/null >"$scratch/run.svg"
 for picture in fig4 run; do
   drawn_by=$(grep -o 'GNUPLOT [0-9.]*' "samples/$picture.svg")
   [ "$drawn_by" = "GNUPLOT $(gnuplot --version | cut -d ' ' -f 2)" ] || continue
@@ -384,17 +310,4 @@ for picture in fig4 run; do
     complain "samples/$picture.svg is not what samples/figures/fig4.sh draws: see $0"
 done
 
-# A roll up a slope and back: the points of both ways, and uncertainties that three decimals do not show.
-simulate -K 0.4 -R 0.0127 -a 2e-4 -b 0.1 --v0 0.7 --slope 0.03 --until 8 --sensor pasco --seed 5 |
-  cut -d , -f 1,2 >"$scratch/ball.csv"
-samples/figures/fig4.sh -K 0.4 -R 0.0127 --slope 0.03 "$scratch/ball.csv" >"$scratch/ball.svg" 2>"$scratch/said" &&
-  [ ! -s "$scratch/said" ] && grep -q 'a = 0\.\(1999\|200[01]\) ± 0\.0002 mm,  b = 0\.[0-9]* ± 0\.000[67]' "$scratch/ball.svg" ||
-  complain "up and back: $(cat "$scratch/said") $(grep -o 'a = [^<]*' "$scratch/ball.svg" | head -n 1)"
-[ "$(grep -c "href='#gpPt" "$scratch/ball.svg")" -gt 150 ] || complain 'up and back: few points'
-
-# What make would do: Fig. 5 needs two tools.
-needed() { make -nB "$1" 2>/dev/null | grep -oE -e '-o bin/[a-z-]+' | cut -c 8- | sort | xargs; }
-needs() { [ "$(needed "$1")" = "$2" ] || complain "$1 needs $(needed "$1")"; }
-needs figures/fig5.svg 'energy-ledger simulate'
-needs figures/fig4.png 'differentiate fitpower shift-from-accel smooth'
 exit $wrong
