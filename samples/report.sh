@@ -189,8 +189,8 @@ still on the body at the beginning, or the mat had a hole?
 HTML
 cat <<'HTML'
 <div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
-<p>By two routes: through the points of Fig. 4, and by the motion of Fig. 1 fitted to the positions,
-which is more precise. <i>a</i> is the shift at 1 m/s. The first uncertainty is that of the noise, the second
+<p>By three routes: through the points of Fig. 4; by the motion of Fig. 1 fitted to the velocities that the
+sensor tells, as the authors did; and by the motion fitted to its positions, which is the most precise. <i>a</i> is the shift at 1 m/s. The first uncertainty is that of the noise, the second
 that of <i>K</i> and <i>R</i>, which no further roll of the same body makes smaller. The columns “off”
 tell by how many standard uncertainties of the noise a value differs from the paper’s, from which the runs
 were made. <code>make table1</code></p>
@@ -225,7 +225,8 @@ HTML
 cat <<'HTML'
 <div class="section"><h3>The check</h3>
 <p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their
-relative difference (Eq. 23). Over many such runs it scatters by some 0.6 %. The imbalance is the
+relative difference (Eq. 23), with the uncertainty that the measured speeds at both ends give it: the
+scatter of a hundred rolls under the law with the noise of the run. The imbalance is the
 largest difference of the two at any moment of the run.</p>
 HTML
 table "Energy" "$scratch/table1"

@@ -39,23 +39,19 @@ stop=$("${body[@]}" --columns t | tail -n 1)
 rms=$(columns fit rms) way=$(columns fit v0 | cut -c 1)
 
 # The readings near the stop; then copies of them with noise; then the law with noise.
-paste readings law | awk -F '\t' -v stop="$stop" -v rms="$rms" -v way="$way" '
-  function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
-  function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
+paste readings law | awk -F '\t' -v stop="$stop" -v rms="$rms" -v way="$way" "$random"'
   $1 > stop - 0.5 && $1 < stop + 1.5 {
     t[++n] = $1; x[n] = way == "-" ? -$2 : $2; rest[n] = way == "-" ? -$3 : $3 }
   END {
     if (n < 12 || t[n] < stop + 0.3) exit 2
     print "# t[s]\tx[m]"
-    seed = 1
     for (copy = 0; copy <= 300; copy++) {
       if (copy) print ""
       for (i = 1; i <= n; i++)
         printf "%.17g\t%.17g\n", t[i], (copy <= 100 ? x[i] : rest[i]) + (copy ? rms * normal() : 0)
     }
   }' >copies || wrong "the run ends at the stop, at $(printf %.2f "$stop") s: it has no rest"
-rows=$(awk -v width="$width" '!/^#/ { if (!NF) exit; if (!n++) first = $1; last = $1 }
-  END { half = int(width * (n - 1) / (last - first) / 2); print 2 * (half < 2 ? 2 : half) + 1 }' copies)
+rows=$(window "$width" rest 5)
 # Of each copy the stretch around the lowest velocity, from zero to zero: begin, duration, way, speed.
 differentiate -c x -M savgol -w "$rows" copies | smooth -c x -M savgol -w "$rows" | awk -F '\t' -v stop="$stop" '
   function share(a, b) { return a == b ? 0 : a / (a - b) }  # of the way to where it is 0

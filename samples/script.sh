@@ -33,8 +33,27 @@ columns() {
         for (j = 1; j <= n; j++) if ($i == want[j] || index($i, want[j] "[") == 1) at[j] = i
       next
     }
-    NF { for (j = 1; j <= n; j++) printf "%s%s", $at[j], j < n ? "\t" : "\n" }' "$file"
+    NF { for (j = 1; j <= n; j++) printf "%s%s", $at[j], (j < n ? "\t" : "\n") }' "$file"
 }
+# window SECONDS FILE LEAST: the odd number of rows that are so long in a run, LEAST at least, and no
+# more than it has.
+window() {
+  columns "$2" t | awk -v width="$1" -v least="$3" '
+    NR == 1 { first = $1 }
+    { last = $1 }
+    END {
+      rows = 2 * int(width * (NR - 1) / (last - first) / 2) + 1
+      if (rows < least) rows = least
+      if (rows > NR) rows = NR - (NR + 1) % 2
+      print rows
+    }'
+}
+# For awk: normal(), numbers that are the same with each awk, from the generator of Park and Miller by
+# Box and Muller.
+# shellcheck disable=SC2034  # for those who source this
+random='function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
+function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
+BEGIN { if (!seed) seed = 1 }'
 # A folder of this run, $scratch, which is removed when it ends. Nothing else is.
 make_scratch() {
   scratch=''

@@ -127,17 +127,11 @@ fit() {
 # The energies of one run: `measured`, by velocities that are the slopes of parabolas, and `fitted`, with
 # t, E_trans, E_rot, E_diss, W_g, v; $parts of the four energies count, from $start on.
 balance() {
-  local rows
   one_run
   fit --route $route rolls
   body 1
-  rows=$(columns roll1 t | awk -v width="$seconds" 'NR == 1 { first = $1 } { last = $1 }
-    END { half = int(width * (NR - 1) / (last - first) / 2)
-      if (half < 1) half = 1
-      if (2 * half + 1 > NR) half = int((NR - 1) / 2)
-      print 2 * half + 1 }')
-  if [ $column = x ]; then differentiate -q -c x -M savgol -w "$rows" roll1
-  else smooth -q -c v -M savgol -w "$rows" roll1; fi >moving
+  if [ $column = x ]; then differentiate -q -c x -M savgol -w "$(window "$seconds" roll1 3)" roll1
+  else smooth -q -c v -M savgol -w "$(window "$seconds" roll1 3)" roll1; fi >moving
   simulate ${quiet:+-q} --law fit1 "${body[@]}" --at roll1 --columns t,v >rolling
   for run in moving:measured rolling:fitted; do
     energy-ledger ${quiet:+-q} -m "$m" --law fit1 "${body[@]}" --columns E_trans,E_rot,E_diss,W_g "${run%:*}" |
@@ -161,8 +155,8 @@ law_of() {
         digits = 3
         while (digits < 9 && $(i + 1) > 0 && size * $(i + 1) * 10^digits < 1) digits++
         number = digits > 6 ? "%.4g ± %.2g%s" : "%." digits "f ± %." digits "f%s"
-        printf "%s%s = " number, text++ ? ",  " : "", name[i], size * $i,
-          size * $(i + 1), unit == "" ? "" : size == 1 ? " " unit : " mm"
+        printf "%s%s = " number, (text++ ? ",  " : ""), name[i], size * $i,
+          size * $(i + 1), (unit == "" ? "" : size == 1 ? " " unit : " mm")
       } }
     END { print "" }' "$1"
 }

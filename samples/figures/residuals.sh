@@ -23,7 +23,7 @@ for i in $(seq "$count"); do
   simulate ${quiet:+-q} --law "fit$i" "${body[@]}" --at "roll$i" >law
   columns law $column v >"law$i"
   columns "roll$i" t $column | paste - "law$i" | awk -F '\t' 'NR == 1 { way = $4 < 0 ? -1 : 1 }
-    { printf "%s\t%.9g\t%.9g\n", $1, $4 < 0 ? -$4 : $4, 1e3 * way * ($2 - $3) }' >"residuals$i"
+    { printf "%s\t%.9g\t%.9g\n", $1, ($4 < 0 ? -$4 : $4), 1e3 * way * ($2 - $3) }' >"residuals$i"
   # The scatter is the median of |residual|, over 0.6745 that of a normal one.
   scatter=$(awk '{ print ($3 < 0 ? -$3 : $3) }' "residuals$i" | sort -g |
     awk '{ r[NR] = $1 } END { print (r[int((NR + 1) / 2)] + r[int(NR / 2) + 1]) / 2 / 0.6745 }')
@@ -36,7 +36,7 @@ for i in $(seq "$count"); do
     awk -v unit=$unit -v rms="$(columns "fit$i" rms)" -v scatter="$scatter" -v rows="$(wc -l <"residuals$i")" \
       -v readings="$(grep -c '^[^#]' "readings$i")" -v outliers="$(wc -l <off)" 'BEGIN {
         printf "   rms %.3g %s, scatter %.3g %s;  %d of %d rows;  %s\n", 1e3 * rms, unit, scatter, unit,
-          rows, readings, outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers" }'
+          rows, readings, (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }'
   } >>note
 done
 printf 'K = %s,  R = %s m' "${K//+-/ ± }" "${R//+-/ ± }" >>note
