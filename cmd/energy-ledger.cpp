@@ -86,6 +86,17 @@ struct Task {
   std::size_t t, v, D;           ///< slots of the reader
 };
 
+/// The laws that the options tell, each in the wind of its run.
+std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const ShiftOf& given,
+                                    bool with_errors) {
+  std::vector<LawOfFile> laws = read_laws(tool, options, given, with_errors);
+  for (LawOfFile& law : laws) {
+    check_wind(law.contact.body, law.law);
+    law.law = law.law.in_wind(law.contact.body.wind);
+  }
+  return laws;
+}
+
 /// Checks the balance of a run.
 void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
   std::string beyond;
@@ -232,19 +243,13 @@ int main(int argc, char** argv) {
     // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
-    const auto read = [&] {
-      task.laws = read_laws(tool, law, task.given, is_chosen("sigma_D"));
-      for (LawOfFile& one : task.laws) {
-        check_wind(one.contact.body, one.law);
-        one.law = one.law.in_wind(one.contact.body.wind);
-      }
-    };
-    if (task.uses_law) read();
+    const bool with_errors = is_chosen("sigma_D");
+    if (task.uses_law) task.laws = laws_in_wind(tool, law, task.given, with_errors);
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
     if (task.law_of_scene) {
       task.uses_law = true;
-      read();
+      task.laws = laws_in_wind(tool, law, task.given, with_errors);
     }
     if (!task.uses_law) {
       tool.need({"radius", "shape-factor"});
