@@ -4,9 +4,16 @@
 # fixed axis; a sensor reads its angle while a weight on a thread drives it (FALL), and while it
 # spins down freely without the weight (SPIN), which tells the friction of the bearing.
 #
-#   samples/shape-factor.sh FALL SPIN         prints K, for -K: 0.4991+-0.0018
-#   samples/shape-factor.sh make FOLDER SEED  makes such runs, with a known answer
-#   samples/shape-factor.sh                   makes runs of cylinder and shell, and uses their K
+#   shape-factor.sh -m M -R R -r r -w W [-g G] FALL SPIN   prints K, for -K: 0.4991+-0.0018
+#   shape-factor.sh make FOLDER SEED                       makes such runs, with a known answer
+#   shape-factor.sh                                        makes runs of cylinder and shell, and uses
+#                                                          their K
+#
+#   -m M   mass of the body [kg]; each may have a standard uncertainty: 1.375+-0.001
+#   -R R   its radius [m]
+#   -r r   radius at which the thread is wound [m]
+#   -w W   mass of the weight [kg]
+#   -g G   gravity (9.81 m/s^2)
 #
 # A run has the columns Time and Angle, as Time (s) and Angle (rad) or Angle (deg), in any form that
 # rolling-columns(5) describes; FALL begins after the weight is released and ends before it lands.
@@ -15,13 +22,30 @@ export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
 here=$(cd "$(dirname "$0")" && pwd)
-
-# What was measured with a balance and a caliper, each with its standard uncertainty; g is known.
-measured='m = 1.375;  u_m = 0.001    # mass of the body [kg]
-          R = 0.0400; u_R = 0.00005  # its radius [m]
-          r = 0.0100; u_r = 0.00002  # radius at which the thread is wound [m]
-          w = 0.0500; u_w = 0.00005  # mass of the weight [kg]
-          g = 9.81'
+# What was measured on the body of the runs that are made here.
+made='-m 1.375+-0.001 -R 0.0400+-0.00005 -r 0.0100+-0.00002 -w 0.0500+-0.00005'
+# shellcheck disable=SC2034  # numbers() takes them by their names
+m='' R='' r='' w='' g=9.81
+# shellcheck disable=SC2034
+measured() {  # OPTION...
+  local option value
+  OPTIND=1
+  while getopts m:R:r:w:g: option; do
+    [ "$option" != '?' ] || exit 2  # getopts has said why
+    for value in "${OPTARG%%+-*}" "${OPTARG#*+-}"; do
+      is_number "${value:-x}" || wrong "-$option $OPTARG: a number, or one like 1.375+-0.001"
+    done
+    case $option in
+      m) m=$OPTARG ;;
+      R) R=$OPTARG ;;
+      r) r=$OPTARG ;;
+      w) w=$OPTARG ;;
+      *) g=$OPTARG ;;
+    esac
+  done
+}
+measured "$@"
+shift $((OPTIND - 1))
 
 # The run as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
 # circle of 1 m. A film of the fall run backwards slows down.
@@ -59,9 +83,20 @@ arc() {  # FILE forwards|backwards
 # fitpower finds it, with its error; K = 0, R = 1 m and g = 1000 m/s^2 make it 1000 a.
 acceleration() {  # FILE forwards|backwards
   local arc row
-  arc=$(arc "$1" "$2") && row=$(fitpower --route position --fix b=0 -K 0 -R 1 -g 1000 <<<"$arc") ||
+  arc=$(arc "$1" "$2") && row=$(fitpower -q --route position --fix b=0 -K 0 -R 1 -g 1000 <<<"$arc") ||
     { echo "shape-factor.sh: no acceleration from ${1##*/}" >&2; return 2; }
   tail -n 1 <<<"$row" | cut -f 1,2
+}
+
+# For awk: m, R, r, w, g and their standard uncertainties u_m, u_R, ... as assignments.
+numbers() {
+  local name
+  for name in m R r w g; do
+    case ${!name} in
+      *+-*) printf '%s = %s; u_%s = %s\n' $name "${!name%%+-*}" $name "${!name#*+-}" ;;
+      *) printf '%s = %s; u_%s = 0\n' $name "${!name}" $name ;;
+    esac
+  done
 }
 
 # The weight pulls with w (g - r alpha) at the radius r, against the friction J beta of the bearing:
@@ -71,24 +106,25 @@ shape_factor() {  # FALL SPIN
   local alpha beta
   alpha=$(acceleration "$1" backwards) && beta=$(acceleration "$2" forwards) || return
   printf '%s\n' "$alpha" "$beta" | awk '
-    function K(m, R, r, w, alpha, beta) { return w * (g - r * alpha) * r / (alpha + beta) / (m * R^2) }
+    function K(m, R, r, w, g, alpha, beta) { return w * (g - r * alpha) * r / (alpha + beta) / (m * R^2) }
     function add(change) { sum += change^2 }
     NR == 1 { alpha = 1000 * $1; u_alpha = 1000 * $2 }
     NR == 2 { beta = 1000 * $1; u_beta = 1000 * $2 }
     END {
-      '"$measured"'
-      k = K(m, R, r, w, alpha, beta)
+      '"$(numbers)"'
+      k = K(m, R, r, w, g, alpha, beta)
       if (!(k > 0)) {
         print "shape-factor.sh: K would be " k ": the units, or what was measured, are not right" \
           >"/dev/stderr"
         exit 2
       }
-      add(K(m + u_m, R, r, w, alpha, beta) - k)
-      add(K(m, R + u_R, r, w, alpha, beta) - k)
-      add(K(m, R, r + u_r, w, alpha, beta) - k)
-      add(K(m, R, r, w + u_w, alpha, beta) - k)
-      add(K(m, R, r, w, alpha + u_alpha, beta) - k)
-      add(K(m, R, r, w, alpha, beta + u_beta) - k)
+      add(K(m + u_m, R, r, w, g, alpha, beta) - k)
+      add(K(m, R + u_R, r, w, g, alpha, beta) - k)
+      add(K(m, R, r + u_r, w, g, alpha, beta) - k)
+      add(K(m, R, r, w + u_w, g, alpha, beta) - k)
+      add(K(m, R, r, w, g + u_g, alpha, beta) - k)
+      add(K(m, R, r, w, g, alpha + u_alpha, beta) - k)
+      add(K(m, R, r, w, g, alpha, beta + u_beta) - k)
       printf "%.4f+-%.4f\n", k, sqrt(sum)
     }'
 }
@@ -100,10 +136,7 @@ make_runs() {  # FOLDER SEED
   local body K
   for body in cylinder:0.50 shell:0.83; do
     K=${body#*:}
-    awk -v K="$K" -v seed="$2" -v file="$1/${body%:*}" '
-      # The generator of Park and Miller, and normal numbers by Box and Muller.
-      function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
-      function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
+    awk -v K="$K" -v seed="$2" -v file="$1/${body%:*}" "$random"'
       function round(x) { return x < 0 ? -int(0.5 - x) : int(x + 0.5) }
       function run(name, start, speed, acceleration, end,   i, t, mark) {
         mark = 6.283185307179586 / 4000
@@ -117,7 +150,7 @@ make_runs() {  # FOLDER SEED
         close(name)
       }
       BEGIN {
-        '"$measured"'
+        '"$(numbers)"'
         burn = 20 + seed * 37 % 101; seed = seed * 1000 + int(100 * K)
         for (i = 0; i < burn; i++) uniform()
         m += u_m * normal(); R += u_R * normal(); r += u_r * normal(); w += u_w * normal()
@@ -131,12 +164,19 @@ make_runs() {  # FOLDER SEED
 
 case $#:${1-} in
   3:make)
+    # shellcheck disable=SC2086  # options
+    measured $made
     [ -d "$2" ] || wrong "$2 is no folder"
     is_count "$3" || wrong "SEED is a whole number, not $3"
     make_runs "$2" "$3"
     ;;
-  2:*) shape_factor "$1" "$2" ;;
+  2:*)
+    [ "$m" ] && [ "$R" ] && [ "$r" ] && [ "$w" ] || wrong "say what was measured: $made"
+    shape_factor "$1" "$2"
+    ;;
   0:)
+    # shellcheck disable=SC2086
+    measured $made
     make_scratch
     make_runs "$scratch" 1
     echo "Shape factors from made runs, and the law of the rubber mat with them"

@@ -12,13 +12,16 @@ samples/shape-factor.sh >"$scratch/out" || { echo "samples/shape-factor.sh fails
 [ "$(grep -cE '^(cylinder|shell): K = 0\.[0-9]{4}\+-0\.00[0-9]{2} \(made with' "$scratch/out")" = 2 ] &&
   [ "$(grep -cE '^0\.001' "$scratch/out")" = 2 ] || { cat "$scratch/out"; exit 1; }
 
+measured='-m 1.375+-0.001 -R 0.0400+-0.00005 -r 0.0100+-0.00002 -w 0.0500+-0.00005'
+
 # The pulls, (K - true) / sigma, of the script $1.
 pulls() {
   local seed body
   for seed in $(seq 25); do
     "$1" make "$scratch" "$seed"
     for body in cylinder:0.50 shell:0.83; do
-      echo "$("$1" "$scratch/${body%:*}-fall.csv" "$scratch/${body%:*}-spin.csv")" "${body#*:}"
+      # shellcheck disable=SC2086  # options
+      echo "$("$1" $measured "$scratch/${body%:*}-fall.csv" "$scratch/${body%:*}-spin.csv")" "${body#*:}"
     done
   done | sed 's/+-/ /' | awk '{ print ($1 - $3) / $2 }'
 }
@@ -40,14 +43,16 @@ pulls "$scratch/wrong.sh" | awk '{ squares += $1^2 } END { exit !(squares > 200)
 # Milliseconds and degrees are converted, in any place, with decimal commas too: the same K.
 samples/shape-factor.sh make "$scratch" 1
 fall=$scratch/cylinder-fall.csv spin=$scratch/cylinder-spin.csv
-K=$(samples/shape-factor.sh "$fall" "$spin")
+# shellcheck disable=SC2086
+of() { samples/shape-factor.sh $measured "$@"; }
+K=$(of "$fall" "$spin")
 wrong=0
 complain() { echo "$*" && wrong=1; }
 same() {  # TITLE AWK: both runs, changed by awk, tell the same K
   awk -F, -v OFS=, "$2" "$fall" >"$scratch/a.csv"
   awk -F, -v OFS=, "$2" "$spin" >"$scratch/b.csv"
   local said
-  said=$(samples/shape-factor.sh "$scratch/a.csv" "$scratch/b.csv" 2>&1)
+  said=$(of "$scratch/a.csv" "$scratch/b.csv" 2>&1)
   [ "$said" = "$K" ] || complain "$1: $said, not $K"
 }
 same 'ms and degrees' 'NR == 1 { print "Time (ms),Angle (deg)"; next }
@@ -62,7 +67,7 @@ same 'BOM and CR' 'NR == 1 { printf "\357\273\277" } { print $0 "\r" }'
 
 # Blank readings are left out, and told.
 awk -F, -v OFS=, 'NR % 7 == 3 { $2 = "" } { print $1, $2 }' "$fall" >"$scratch/blank.csv"
-said=$(samples/shape-factor.sh "$scratch/blank.csv" "$spin" 2>"$scratch/err")
+said=$(of "$scratch/blank.csv" "$spin" 2>"$scratch/err")
 awk -v K="$K" -v is="$said" 'BEGIN { split(K, k, /\+-/); n = split(is, i, /\+-/)
     exit !(n == 2 && (k[1] - i[1])^2 < k[2]^2 / 4) }' ||
   complain "with blank readings K is $said, not $K"
@@ -72,7 +77,7 @@ grep -q '22 rows left out: a reading is missing' "$scratch/err" ||
 # What cannot be read, or does not tell an acceleration, ends the script, and prints no K.
 refused() {  # WHY FALL SPIN
   local said status
-  said=$(samples/shape-factor.sh "$2" "$3" 2>"$scratch/err")
+  said=$(of "$2" "$3" 2>"$scratch/err")
   status=$?
   [ $status -gt 0 ] && [ -z "$said" ] && grep -q -- "$1" "$scratch/err" ||
     complain "$1: status $status, $said, $(cat "$scratch/err")"
@@ -93,4 +98,21 @@ refused 'two runs' "$scratch/a.csv" "$spin"
 refused 'fitpower: ' "$spin" "$fall"
 sed 's/(s)/(ms)/' "$fall" >"$scratch/a.csv"
 refused 'K would be -' "$scratch/a.csv" "$spin"
+
+# K goes as 1/(m R^2), and nearly as w r; another body has another K; what was measured is not guessed.
+awk -v K="$K" -v other="$(samples/shape-factor.sh -m 2.75 -R 0.02 -r 0.01 -w 0.05 "$fall" "$spin")" 'BEGIN {
+  split(K, k, /\+-/); split(other, o, /\+-/); exit !((o[1] / k[1] - 2)^2 < 1e-6 && o[2] / o[1] < k[2] / k[1]) }' ||
+  complain "half the radius and twice the mass are not twice K"
+awk -v K="$K" -v more="$(of -m 1.375+-0.1 "$fall" "$spin")" 'BEGIN {
+  split(K, k, /\+-/); split(more, o, /\+-/); want = k[1] * 0.1 / 1.475
+  exit !(o[1] == k[1] && (o[2] / want - 1)^2 < 1e-3) }' || complain "an uncertainty of the mass"
+for missing in '-m 1.375' '-R 0.04' '-r 0.01' '-w 0.05'; do
+  options=" $measured "
+  options=$(sed "s/ ${missing% *} [^ ]*//" <<<"$options")
+  # shellcheck disable=SC2086
+  said=$(samples/shape-factor.sh $options "$fall" "$spin" 2>&1) && complain "without $missing: $said"
+  [ "$said" = "shape-factor.sh: say what was measured: $measured" ] || complain "without $missing: $said"
+done
+said=$(samples/shape-factor.sh -m 1,375 "$fall" "$spin" 2>&1) && complain "-m 1,375: $said"
+[ "$said" = 'shape-factor.sh: -m 1,375: a number, or one like 1.375+-0.001' ] || complain "-m 1,375: $said"
 exit $wrong
