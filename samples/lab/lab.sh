@@ -97,20 +97,12 @@ else
   cat "$new/table.txt"
 fi
 if command -v gnuplot >/dev/null; then
-  mkdir "$scratch/drawn"
-  number=0
-  while IFS= read -r name; do
-    number=$((number + 1))
-    smooth -q -c $column -w 1 --run $number "$new/rolls" >"$scratch/drawn/${name//\//_}"
-    drawn[number]=$scratch/drawn/${name//\//_}
-  done < <(sed -n 's/^## run //p' "$new/rolls")
-  "$(dirname "$0")/../figures/fig4.sh" -c "$column" -K "$K" -R "$R" --slope "$slope" \
-    -- "${drawn[@]}" >"$new/fig4.svg"
+  "$(dirname "$0")/../figures/fig4.sh" -c "$column" -K "$K" -R "$R" --slope "$slope" "$new/rolls" \
+    >"$scratch/fig4.svg" 2>"$scratch/said" && mv "$scratch/fig4.svg" "$new" ||
+    say "no figure: $(tail -n 1 "$scratch/said")"
 fi
 
 failed=0
-# Of a list, K or R, the value of run number $2.
-of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
 check_run() {  # NUMBER
   [ "$column" = v ] || fitpower -q --check --run "$1" --route position -K "$(of_run "$K" "$1")" \
     -R "$(of_run "$R" "$1")" --slope "$slope" "$new/rolls" >/dev/null || return 1
