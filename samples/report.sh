@@ -129,7 +129,7 @@ echoes of such a sensor. So the answer is known, and one can see how well it is 
 HTML
 drawn fig1 "Fig. 1: velocity against time" <<'HTML'
 The hand pushes, lets go, and the body rolls freely. Grey: differences of the sonar’s positions;
-coloured: the mean over eleven of them; black: the motion that the law <i>D = a v<sup>b</sup></i>
+coloured: the mean over eleven of them, 0.44 s; black: the motion that the law <i>D = a v<sup>b</sup></i>
 predicts, fitted to the positions. <i>To discuss:</i> on felt the lines are nearly straight, on
 rubber they are not; what does that say about the force? Why does the shell roll further than the
 cylinder of equal mass and radius?

@@ -47,7 +47,7 @@ title='Residuals of a fit against time and against velocity'
 draw 520 $((600 + 18 * lines)) "lines = $lines; unit = '$unit'; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
 height = 600 + 18.0*lines
 below = (18*lines + 10)/height
-set multiplot layout 2,1 margins 0.16,0.97,below + 54/height,count > 1 ? 0.95 : 0.985 spacing 0.11
+set multiplot layout 2,1 margins 0.16,0.955,below + 54/height,count > 1 ? 0.95 : 0.985 spacing 0.11
 set label 1 system('cat note') at screen 0.02, screen below - 10/height left font ',12' noenhanced
 file(name, i) = sprintf('%s%d', name, i)
 most = 2.5*rms
