@@ -6,11 +6,11 @@
 
 namespace rolling::levels {
 
-/// Ljung-Box: at or below it the noise is taken as not white. Two numbers of lags: 0.6 %.
-inline constexpr double not_white = 0.003;
+/// Ljung-Box: at or below it the noise is taken as not white: 0.5 %.
+inline constexpr double not_white = 0.005;
 /// With 60 rows the test often misses an autocorrelation of 0.5. At or below this limit a
 /// positive one gets errors that allow for it: one run in ten, at 1 to 2 % in their size.
-inline constexpr double nearly_white = 0.1;
+inline constexpr double nearly_white = 0.17;
 /// White noise turns back so few steps with at most this probability, by a bound of it: 1 % of
 /// white speeds on rubber, 0.4 % on felt.
 inline constexpr double few_reversals = 0.1;
@@ -19,7 +19,7 @@ inline constexpr double uneven = 0.01;
 /// Runs of a joint fit disagree: 1 % (tests/unit/fit/errors_agreement_test.cpp).
 inline constexpr double runs_disagree = 0.01;
 /// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.
-inline constexpr double beginning = 0.001, beginning_white = 0.005;
+inline constexpr double beginning = 0.001, beginning_white = 0.009;
 /// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.
 inline constexpr double one_turn = 0.01;
 /// In the search for one turn, a residual of more standard deviations than this counts as one of

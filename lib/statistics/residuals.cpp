@@ -2,9 +2,12 @@
 #include "statistics/residuals.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_randist.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "base/matrix.h"
@@ -16,6 +19,28 @@ namespace {
 /// The sum of the products of numbers that are `lag` rows apart.
 double product(std::span<const double> run, std::size_t lag) {
   return run.size() > lag ? dot(run.first(run.size() - lag), run.subspan(lag)) : 0;
+}
+
+/// The probability that of the chi-squared of one lag and that of all lags, of which it is a part,
+/// the smaller probability is at most this. The other lags are independent of the first, z: the
+/// integral over z of the normal density times the distribution of the others.
+double smaller_of_two(double least, std::size_t lags) {
+  if (lags == 1 || least <= 0 || least >= 1) return least;
+  const double others = static_cast<double>(lags - 1);
+  const double most = gsl_cdf_chisq_Qinv(least, others + 1);
+  const double end = std::min(gsl_cdf_ugaussian_Qinv(least / 2), std::sqrt(most));
+  const std::unique_ptr<gsl_integration_glfixed_table,
+                        decltype(&gsl_integration_glfixed_table_free)>
+      table(gsl_integration_glfixed_table_alloc(64), gsl_integration_glfixed_table_free);
+  double sum_above = 0;
+  for (std::size_t i = 0; i < table->n; ++i) {
+    double z = 0;
+    double weight = 0;
+    gsl_integration_glfixed_point(0, end, i, &z, &weight, table.get());
+    sum_above += 2 * weight * gsl_ran_ugaussian_pdf(z) * gsl_cdf_chisq_Q(most - z * z, others);
+  }
+  // For a small p the complement keeps its digits: |z| is beyond its limit, or the sum is.
+  return 2 * gsl_cdf_ugaussian_Q(end) + sum_above;
 }
 
 }  // namespace
@@ -64,7 +89,7 @@ double ljung_box(std::span<const double> r, const LagSums& taken, std::span<cons
     if (variances[k] > 0) Q += sum * sum / variances[k];
     if (k == 1 || k == lags) least = std::min(least, gsl_cdf_chisq_Q(Q, static_cast<double>(k)));
   }
-  return least;
+  return smaller_of_two(least, lags);
 }
 
 double breusch_pagan(std::span<const double> residuals, std::span<const std::size_t> runs,

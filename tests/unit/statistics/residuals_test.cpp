@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "statistics/residuals.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "unit/catch.h"
@@ -18,6 +19,28 @@ TEST_CASE("residuals: Ljung-Box tells white residuals from correlated ones", "[s
   CHECK(ljung_box(white, taken, one) > 0.01);
   CHECK(ljung_box(white, taken, two) > 0.01);
   CHECK(ljung_box(smooth, taken, one) < 1e-6);
+}
+
+// The share of white noise with a p up to each limit is that limit, within four of its standard
+// deviations, for one lag and for ten.
+TEST_CASE("residuals: the p of white noise is uniform", "[statistics]") {
+  simulated::Noise noise(11);
+  for (const std::size_t size : {15u, 1000u}) {
+    const std::size_t runs[] = {size};
+    constexpr int trials = 2000;
+    std::vector<double> p;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<double> white;
+      for (std::size_t i = 0; i < size; ++i) white.push_back(noise(1));
+      p.push_back(ljung_box(white, {}, runs));
+    }
+    for (const double limit : {0.02, 0.1, 0.3, 0.5, 0.8}) {
+      const auto below =
+          static_cast<double>(std::ranges::count_if(p, [&](double x) { return x <= limit; }));
+      CAPTURE(size, limit, below);
+      CHECK(std::abs(below - limit * trials) < 4 * std::sqrt(trials * limit * (1 - limit)));
+    }
+  }
 }
 
 // Of 1000 with a chance of 1 to 2 %, 40 or more come in 1 of 10,000.
