@@ -7,7 +7,7 @@ static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
-        mutate coverage work-precision work-precision-signal bench lint
+        mutate coverage bad-runs work-precision work-precision-signal bench lint
 
 -include $(patsubst %.o,%.d,$(call object,$(test) \
            $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
@@ -187,6 +187,11 @@ coverage: build/coverage build/bench/troubles
 	@{ echo 'Of build/coverage and build/bench/troubles, run by make coverage:'; \
 	  build/coverage $(call short,2); build/bench/troubles $(call short,2); } | \
 	  tee $(call short,build,samples)/coverage.txt
+
+# What `fitpower --check` says of runs with one thing wrong: two minutes.
+bad-runs: all
+	@PATH="$$PWD/bin:$$PATH" tests/bench/bad-runs.sh $(call short,2) | \
+	  tee $(call short,build,samples)/bad-runs.txt
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.

@@ -33,6 +33,11 @@ for goal in $goals; do
     coverage)
       run coverage
       has build/coverage.txt '^white x +position +CR +[-+]' ;;
+    bad-runs)
+      run bad-runs
+      # A fault that a run shows is never silent; the others are marked.
+      awk -F '\t' '/^#/ { next } { rows++ } $1 == "none" { if ($6 < $2) exit 1; next } $1 !~ / -$/ && $6 > 0 { exit 1 }
+        END { if (rows < 15) exit 1 }' build/bad-runs.txt || complain "$(cat build/bad-runs.txt)" ;;
     work-precision)
       run work-precision
       awk -F '\t' '$1 == "v" && NF == 2 { found = $2 } END { exit !(found > 0 && found < 1e-13) }' \

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# bad-runs.sh [SEEDS]: what `fitpower --check` says of runs with one thing wrong, and of good ones. A
+# row for each kind of fault, of SEEDS simulated runs (40) of rubber and felt in turn:
+#
+#   check     exit 1: the check fails
+#   refused   exit 2: there is no row
+#   message   exit 0, with a warning
+#   silent    exit 0, without a word
+#
+# What no single run can show is marked `-`: the law is then off, and nothing can tell.
+set -euo pipefail
+export LC_ALL=C
+unset CDPATH
+seeds=${1:-40}
+cd "$(dirname "$0")/../../samples"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# The raw run of a sensor: SEED scenes in turn, with further options of simulate.
+raw() { simulate --scene "$scene" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$seed" "$@"; }
+coast() { smooth -q --coast -c x "$@"; }
+fit() { fitpower --check --route position -K "$K" -R 0.04 "$@"; }
+# A roll under a law, as an even sensor sees it: noise of 0.3 mm, by Park and Miller's generator and
+# Box and Muller.
+seen() {
+  awk -v seed="$((seed * 7919))" '
+    function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
+    BEGIN { uniform() }
+    /^#/ || NF < 2 { print; next }
+    { $2 += 3e-4 * sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()); print }' OFS='\t'
+}
+roll() { simulate --scene "$scene" --columns t,x --dt 0.04 "$@" | seen; }
+
+good() { raw | coast | fit; }
+millimetres() { raw | coast | awk -F '\t' '/^##/ { print; next } /^#/ { print "# t[s]\tx"; next }
+  { print $1 "\t" 1000 * $2 }' | fit; }
+other_column() { raw | coast --use x=3 2>/dev/null | fit --use x=3; }
+other_K() { raw | coast | fitpower --check --route position -K 0.83 -R 0.04; }
+other_R() { raw | coast | fitpower --check --route position -K "$K" -R 0.05; }
+push_left_in() { raw | smooth -q -c x -w 1 --from 1.2 --to 3.4 | fit; }
+# From 1.2 s on a hand takes the speed away within 0.4 s.
+hand_left_in() {
+  roll --until 1.6 | awk '/^#/ { print; next }
+    $1 > 1.2 { way += ($2 - last) * (1.6 - $1) / 0.4; print $1 "\t" from + way; last = $2; next }
+    { print; from = last = $2 }' OFS='\t' | fit
+}
+two_rolls() { { roll --until 1; roll --until 1 | awk '!/^#/ { print $1 + 1.04 "\t" $2 + 0.4 }'; } | fit; }
+tilt() { roll --slope 0.005 | fit; }
+tilt_both_ways() {
+  { roll --slope 0.002; echo; simulate --scene "$scene" --v0 -0.5 --slope 0.002 --columns t,x --dt 0.04 | seen; } | fit
+}
+copied() { raw | coast >"$scratch/one"; fit "$scratch/one" "$scratch/one"; }
+up_and_back() { simulate -K 0.4 -R 0.0127 -a 5e-5 -b 0.1 --v0 0.5 --slope 0.02 --until 6 --dt 0.04 --columns t,x | seen |
+  fitpower --check -K 0.4 -R 0.0127; }
+one_of_five() {
+  local a=1.87e-3 i
+  for i in 1 2 3 4 5; do
+    [ $i != 3 ] || a=2.06e-3
+    simulate -K 0.5 -R 0.04 -a $a -b 0.215 --v0 0.5 --sensor pasco --seed "$((1000 * i + seed))" |
+      smooth -q --coast -c x >"$scratch/run$i"
+    a=1.87e-3
+  done
+  fitpower --check -K 0.5 -R 0.04 "$scratch"/run[1-5]
+}
+dropped_frames() {
+  roll | awk '/^#/ { print; next } ++n % 23 { printf "%.9g\t%s\n", 0.04 * k++, $2 }' | fit
+}
+K_of_two_bodies_exchanged() {
+  simulate --scene CR.toml --sensor pasco --seed "$seed" | coast >"$scratch/C"
+  simulate --scene SR.toml --sensor pasco --seed "$seed" | coast >"$scratch/S"
+  fitpower --check -K 0.83,0.5 -R 0.04 "$scratch/C" "$scratch/S"
+}
+
+row() {  # KIND FUNCTION
+  local count=(0 0 0) silent=0 status
+  for ((seed = 1; seed <= seeds; seed++)); do
+    if ((seed % 2)); then scene=CR.toml; else scene=CF.toml; fi
+    K=0.5 status=0
+    "$2" >"$scratch/row" 2>"$scratch/said" || status=$?
+    ((status < 3)) || { cat "$scratch/said" >&2 && exit 2; }
+    count[status]=$((count[status] + 1))
+    [ $status != 0 ] || [ -s "$scratch/said" ] || silent=$((silent + 1))
+  done
+  printf '%s\t%d\t%d\t%d\t%d\t%d\n' "$1" "$seeds" "${count[1]}" "${count[2]}" $((count[0] - silent)) $silent
+}
+printf '# fault\truns\tcheck\trefused\tmessage\tsilent\n'
+row 'none' good
+row 'positions in mm, no unit' millimetres
+row 'speeds taken for positions' other_column
+row 'push left in' push_left_in
+row 'hand left in at the end' hand_left_in
+row 'two rolls as one' two_rolls
+row 'one run twice' copied
+row 'up a slope and back, no slope' up_and_back
+row '10 % more D in one of five' one_of_five
+row 'one frame in 23 dropped' dropped_frames
+row 'K of two bodies exchanged' K_of_two_bodies_exchanged
+row 'tilt of 2 mm/m, both ways' tilt_both_ways
+row 'tilt of 5 mm/m, one way -' tilt
+row 'K of another body -' other_K
+row 'R of another body -' other_R
