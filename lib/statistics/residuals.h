@@ -25,9 +25,10 @@ LagSums taken_by_few(std::size_t p);
 /// The p of the autocorrelation of the residuals of a fit, after Ljung and Box (1978,
 /// Biometrika 65, 297). Two sums are tested: that for one lag and that for n/10 lags (at least 1,
 /// at most 10). The p is the probability that white noise makes the smaller of their two
-/// probabilities as small as it is, so that it is uniform for white noise. Corrected for what the fit has taken. The noise of each run has its own variance;
-/// where it is `uneven` along a run, too, the variance of each sum of products is the sum of their
-/// squares (Lobato, Nankervis and Savin 2001, Int. Econ. Rev. 42, 187).
+/// probabilities as small as it is, so that it is uniform for white noise. Corrected for what the
+/// fit has taken. The noise of each run has its own variance; where it is `uneven` along a run,
+/// too, the variance of each sum of products is the sum of their squares (Lobato, Nankervis and
+/// Savin 2001, Int. Econ. Rev. 42, 187).
 double ljung_box(std::span<const double> residuals, const LagSums&,
                  std::span<const std::size_t> runs, bool uneven = false);
 

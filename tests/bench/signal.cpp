@@ -56,16 +56,16 @@ Series apply(const SignalOptions& options, const Series& t, const Series& y) {
 
 /// The free roll of one run: from two rows after the release, where the central difference
 /// has left the push behind, to a tenth of the greatest speed.
-struct Roll {
+struct NoisyRoll {
   Series t, x, v, a;
 };  // v and a: the truth
 
-Roll roll(const Experiment& scene, unsigned long seed) {
+NoisyRoll roll(const Experiment& scene, unsigned long seed) {
   const auto motion_owned = closed_roll({1.375, 0.04, scene.K}, scene.law, 0.5, 0);
   Motion& motion = *motion_owned;
   SonarOptions options;
   options.seed = seed, options.lost = 0;
-  Roll out;
+  NoisyRoll out;
   std::vector<SonarSample> run;
   sonar_run(motion, options, [&](const SonarSample& s) { run.push_back(s); });
   motion.seek(0);
@@ -83,7 +83,7 @@ Roll roll(const Experiment& scene, unsigned long seed) {
 struct Pipeline {
   std::string name;
   double width;  // NaN: none
-  std::function<void(const Roll&, const Series& v, Series& smooth, Series& a)> apply;
+  std::function<void(const NoisyRoll&, const Series& v, Series& smooth, Series& a)> apply;
 };
 
 constexpr std::size_t next(std::size_t width) {
@@ -98,24 +98,25 @@ std::vector<Pipeline> methods() {
       if (name == "median" && width == 1) continue;
       const SignalOptions options{method, {width, 0}};
       all.push_back({name + "+central", static_cast<double>(width),
-                     [=](const Roll& r, const Series& v, Series& s, Series& a) {
+                     [=](const NoisyRoll& r, const Series& v, Series& s, Series& a) {
         s = apply(options, r.t, v), a = apply(central, r.t, s);
                      }});
     }
   for (std::size_t order = 1; order <= 2; ++order)
     for (std::size_t width = 5; width <= 61; width = next(width))
       all.push_back({fmt::format("savgol{}", order), static_cast<double>(width),
-                     [=](const Roll& r, const Series& v, Series& s, Series& a) {
+                     [=](const NoisyRoll& r, const Series& v, Series& s, Series& a) {
         s = apply({smoothing.at("savgol"), {width, 0}, order}, r.t, v),
         a = apply({differentiation.at("savgol"), {width, 0}, order}, r.t, v);
                      }});
   for (const auto& [name, method] : differentiation)
     if (name != "savgol" && name != "central")
-      all.push_back({name, NAN, [m = method](const Roll& r, const Series& v, Series& s, Series& a) {
-                       s = v, a = apply({m}, r.t, v);
+      all.push_back({name, NAN,
+                     [m = method](const NoisyRoll& r, const Series& v, Series& s, Series& a) {
+        s = v, a = apply({m}, r.t, v);
                      }});
   all.push_back({"spline_of_x+central", NAN,
-                 [=](const Roll& r, const Series&, Series& s, Series& a) {
+                 [=](const NoisyRoll& r, const Series&, Series& s, Series& a) {
     s = apply({differentiation.at("spline")}, r.t, r.x), a = apply(central, r.t, s);
                  }});
   return all;
@@ -128,7 +129,7 @@ int main(int argc, char** argv) {
     const unsigned long count = std::strtoul(argv[2], nullptr, 10);
     for (const Experiment& scene : scenes)
       for (unsigned long seed = 1; seed <= count; ++seed) {
-        const Roll r = roll(scene, seed);
+        const NoisyRoll r = roll(scene, seed);
         for (std::size_t i = 0; i < r.t.size(); ++i)
           fmt::print("{}\t{}\t{}\t{}\t{}\t{}\n", scene.name, seed, r.t[i], r.x[i], r.v[i], r.a[i]);
       }
@@ -152,7 +153,7 @@ int main(int argc, char** argv) {
       double v_errors = 0, inside = 0, outside = 0, relative = 0;
       std::size_t n = 0;
       for (unsigned long seed = 1; seed <= seeds; ++seed) {
-        const Roll r = roll(scene, seed);
+        const NoisyRoll r = roll(scene, seed);
         const Series v = apply({differentiation.at("central")}, r.t, r.x);
         const auto begin = std::chrono::steady_clock::now();
         method.apply(r, v, smooth, a);
