@@ -176,7 +176,7 @@ law_of() { columns "$1.x.noise" a b | awk '{ print "-a " $1 " -b " $2 }'; }
 # What closures of a run scatter by: the speeds at its ends are measured. Of 100 rolls under its law with
 # the noise that its fit leaves over.
 scatter() {  # RUN
-  simulate --scene "$1.toml" --law "$1.x.noise" --at "$1.roll" --columns t,x |
+  simulate --law "$1.x.noise" --at "$1.roll" --columns t,x |
     awk -F '\t' -v rms="$(columns "$1.x.noise" rms)" "$random"'
       /^##/ { next }
       /^#/ { header = $0; next }
