@@ -56,9 +56,11 @@ function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * u
 BEGIN { if (!seed) seed = 1 }'
 # A folder of this run, $scratch, which is removed when it ends. Nothing else is.
 make_scratch() {
-  scratch=''
-  trap '[ -z "$scratch" ] || rm -rf "$scratch"' EXIT
-  trap 'exit 130' INT TERM
+  ended=''
+  trap 'ended=1' INT TERM  # not before the folder has its name
   scratch=$(mktemp -d) && [ -d "$scratch" ] || wrong 'mktemp makes no folder: see TMPDIR'
+  trap 'rm -rf "$scratch"' EXIT
+  trap 'exit 130' INT TERM
   case $scratch in /*) ;; *) scratch=$PWD/$scratch ;; esac
+  [ -z "$ended" ] || exit 130
 }

@@ -18,7 +18,7 @@ samples=${figures%/*}
 . "$samples/script.sh"
 # A script that sources this has said in `takes` which of --slope, --seconds and --at it has too,
 # and in `needs` what has to be said of a body. Its operands are in `files`.
-form=svg K='' R='' m='' slope=${slope-0} at='' column='' law=() use=() run=() of_own='' count=0
+form=svg K='' R='' m='' slope=${slope-0} at='' column='' law=() use=() run=() of_own='' count=1
 default_slope=$slope
 while getopts t:K:R:m:c:-: option; do
   if [ "$option" = - ]; then  # --slope S, or --slope=S
@@ -97,16 +97,14 @@ prepare() {
   cat "$scratch/said" >&2
   [ "$column" ] || exit 2
   cd "$scratch"
+  if ! grep -q '^## run ' readings; then
+    { printf '## run %s\n' "${name//[[:cntrl:]]/?}" && cat readings; } >named
+    mv named readings
+  fi
   smooth ${quiet:+-q} --coast -c $column readings >rolls
   awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("roll" n) }' rolls
-  sed -n 's/^## run //p' rolls | grep . >names || printf '%s\n' "${name//[[:cntrl:]]/?}" >names
-  sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' names >short && mv short names
-  # In a picture a long name loses its middle.
-  while IFS= read -r name; do
-    [ ${#name} -le 24 ] || name=${name:0:11}…${name: -12}
-    count=$((count + 1))
-    printf '%s' "$name" >"name$count"
-  done <names
+  sed -n 's/^## run //p' rolls | sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' >names
+  count=$(($(wc -l <names)))
 }
 take() {
   smooth ${quiet:+-q} -w 1 -c "$1" ${use[@]+"${use[@]}"} ${run[@]+"${run[@]}"} -- "${files[@]}" \
@@ -191,7 +189,7 @@ draw() {
   esac
   LC_ALL=C.UTF-8 gnuplot -d \
     -e "set terminal $terminal size $size font 'sans-serif,$font' background 'white'" \
-    -e "own = $own; count = ${count-1}; ${3:-}" style.gp /dev/stdin |
+    -e "own = $own; count = $count; ${3:-}" style.gp /dev/stdin |
     if [ "$form" = svg ]; then
       sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/
         s|<title>Gnuplot</title>|<title>${title:?}</title>|; s|<title>gnuplot_[^<]*</title>||"
@@ -226,7 +224,7 @@ instant() {
     prepare
     one_run
     fit --exact --route $route rolls
-    at=${at:-$(columns fit1 t0)} name=$(cat name1)
+    at=${at:-$(columns fit1 t0)} name=$(cat names)
     printf 't\n%s\n' "$at" | simulate --law fit1 -K "$K" -R "$R" --exact --at - >row
   fi
   now="K = ${K%%+-*}; R = ${R%%+-*}; m = $m; $(awk -F '\t' -v OFS='\t' '

@@ -38,7 +38,7 @@ set label 'τ_H' at 1.3*r*sin(t_H - 0.1), r + 1.3*r*cos(t_H - 0.1) center
 set label 'τ_N = −D F_N = '.quantity(tau_N, 'N m') at 3, -14 center front
 set label 'τ_H = −A R F_H = +'.quantity(tau_H, 'N m') at 3, -22 center front
 set label 'τ_N + τ_H = '.quantity(tau_N + tau_H, 'N m').': ω falls' at 3, -30 center front
-set label system('cat name') at -56, -42 left noenhanced
+set label cut(system('cat name'), 40) at -56, -42 left noenhanced
 plot '+' using 1:(-8):(mat($1)) with filledcurves lc rgb pale notitle, \
      [t=0:2*pi] '+' using (r*sin(t)):(r - r*cos(t)) with lines lc rgb black lw 2 notitle, \
      [t=-1.15:-0.55] '+' using (1.13*r*sin(t)):(r + 1.13*r*cos(t)) with lines lc rgb black lw 1.2 \

@@ -33,7 +33,7 @@ set label '2v' at 2*u+2, 2*r left
 set label "velocities of points of the body\nω = v/R = ".number(v/R).' rad/s' at 0, 2*r+15 center
 set label 'ω' at -1.13*r*sin(0.85), r + 1.13*r*cos(0.85) right offset -0.4, 0.6
 set label 'the lowest point is at rest' at 0, -16 center front
-set label system('cat name') at -36, -35 left noenhanced
+set label cut(system('cat name'), 40) at -36, -35 left noenhanced
 plot '+' using 1:(-8):(mat($1)) with filledcurves lc rgb pale notitle, \
      [t=0:2*pi] '+' using (r*sin(t)):(r - r*cos(t)) with lines lc rgb black lw 2 notitle, \
      [t=-1.15:-0.55] '+' using (1.13*r*sin(t)):(r + 1.13*r*cos(t)) with lines lc rgb black lw 1.2 \

@@ -45,11 +45,18 @@ vmax=${frame%%;*}
 for i in $(seq "$count"); do
   "$samples/law.sh" -f "$(awk "BEGIN { $frame; print 0.04 * vmax }")" -t "${vmax#*= }" -n 200 "fit$i" >"band$i"
 done
+# The scatter of the points about the law, for their bars.
+scatter=$(awk '
+  /^#/ { next }
+  FNR == NR { v[++n] = $1; D[n] = 1e3 * $2; next }
+  { i = int(($1 - v[1]) / (v[2] - v[1])) + 1 }
+  i >= 1 && i < n { sum += ($2 - D[i] - (D[i + 1] - D[i]) * ($1 - v[i]) / (v[i + 1] - v[i]))^2; rows++ }
+  END { print (rows ? sqrt(sum / rows) : 0) }' band1 points1)
 bars=0
 [ "$own$count" != 11 ] || [ "$(wc -l <points1)" -gt 150 ] || bars=1
 # What holds for all of the picture, below it.
 {
-  if [ $bars = 1 ]; then echo 'Band: 95 % confidence of the law. Bars: scatter.'
+  if [ $bars = 1 ]; then printf 'Band: 95 %% confidence of the law. Bars: scatter, ± %.3g mm.\n' "$scatter"
   else echo 'Bands: 95 % confidence of the law, not of the points.'; fi
   printf 'Points: the free roll, less half a window of %s s at each end.\n' "$seconds"
   if [ "$own" -gt 0 ]; then
@@ -61,7 +68,7 @@ bars=0
   fi
 } >note
 title='Fig. 4: the shift D against the velocity, with the fitted laws and their 95 % bands'
-draw 520 540 "$frame; scatter = 1e3*$(columns fit1 rms); bars = $bars" <<'PLOT'
+draw 520 540 "$frame; scatter = $scatter; bars = $bars" <<'PLOT'
 array least[count]; array most[count]
 do for [i = 1:count] {
   stats sprintf('points%d', i) using 1 nooutput
@@ -80,11 +87,9 @@ told = own && count <= 4   # the key has the laws
 room = 34
 if (told) { room = 14; set key Left reverse width 0 font ',11' samplen 1.5 }
 if (named > 4) { set key font ',11' samplen 2.6; room = 50/((named + 3)/4) - 8 }
-cut(name) = strlen(name) <= room ? name : \
-  substr(name, 1, (room - 1)/2).'…'.substr(name, strlen(name) - room/2 + 1, strlen(name))
 array title[count]
 do for [i = 1:count] {
-  title[i] = cut(name(i)).(told ? ':  '.system(sprintf('cat law%d', i)) : '')
+  title[i] = cut(name(i), room).(told ? ':  '.system(sprintf('cat law%d', i)) : '')
 }
 if (!own) { set label 'rubber' at 0.495, 1.74 right; set label 'felt' at 0.495, 0.77 right }
 file(name, i) = sprintf('%s%d', name, i)

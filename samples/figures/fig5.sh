@@ -51,7 +51,7 @@ eval energy(down(x(2), stored - 30, y + high/2, P_R2 + P_R1))
 eval energy(down(x(4), y - high/2, y - high/2 - 100, P_diss))
 set object rectangle from 4, 134 to x(3) + wide/2 + 8, H - 44 fs empty border rgb grey lw 1 dt 2
 set label 'rolling body' at x(3) + wide/2, H - 60 right textcolor rgb 0x606060
-set label system('cat name').sprintf(" at t = %s s:  v = %.3f m/s,  D = %.2f mm", \
+set label cut(system('cat name'), 40).sprintf(" at t = %s s:  v = %.3f m/s,  D = %.2f mm", \
   number(t), v, 1e3*D) at W/2, H - 22 center noenhanced
 do for [s = 1:4] {
   set object rectangle center x(s), y size wide, high fc rgb 'white' fs solid 1 \

@@ -32,7 +32,8 @@ for i in $(seq "$count"); do
   if [ "$i" = 4 ]; then echo "… $count runs in all" >>note; fi
   [ "$i" -lt 4 ] || continue
   {
-    printf '%s:  %s\n' "$(cat "name$i")" "$(law_of "fit$i")"
+    name=$(sed -n "${i}p" names): && [ ${#name} -lt 32 ] || name+=$'\n  '
+    printf '%s  %s\n' "$name" "$(law_of "fit$i")"
     awk -v unit=$unit -v rms="$(columns "fit$i" rms)" -v scatter="$scatter" -v rows="$(wc -l <"residuals$i")" \
       -v readings="$(grep -c '^[^#]' "readings$i")" -v outliers="$(wc -l <off)" 'BEGIN {
         printf "   rms %.3g %s, scatter %.3g %s;  %d of %d rows;  %s\n", 1e3 * rms, unit, scatter, unit,

@@ -32,7 +32,7 @@ attempt() {
   status=$?
   [ $status != 124 ] || complain "$name does not end: $*"
   [ "$(state)" = "$before" ] || { complain "$name harms: $*" && diff <(echo "$before") <(state) | head -n 5; exit 1; }
-  [ -z "$(ls -A "$scratch/tmp")" ] || { complain "$name leaves scratch: $(ls "$scratch/tmp")" && rm -rf "$scratch/tmp"/*; }
+  [ -z "$(ls -A "$scratch/tmp")" ] || { complain "$name leaves scratch: $* $(ls "$scratch/tmp")" && rm -rf "$scratch/tmp"/*; }
 }
 export TMPDIR="$scratch/tmp"
 mapfile -t scripts < <(find samples cmd/install -name '*.sh' ! -name draw.sh ! -name script.sh)

@@ -130,6 +130,18 @@ smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth --se
     printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
 grep -qF "$(cat "$scratch/said")" "$scratch/given.svg" || complain "fig4 does not say: $(cat "$scratch/said")"
 grep -qF 'K = 0.50 ± 0.05, R = 0.04 m' "$scratch/given.svg" || complain 'fig4 does not say K and R'
+# The bars are the scatter of the points that are drawn.
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/CR.csv" >"$scratch/bars.svg" 2>/dev/null
+smooth -q --coast -c x -w 1 "$scratch/CR.csv" | differentiate -c x | smooth --seconds 0.44 | differentiate |
+  shift-from-accel -K 0.5 -R 0.04 >"$scratch/shifts"
+fitpower -q "$scratch/shifts" | awk -F'\t' '
+  FNR == NR { if (!/^#/) { a = $1; b = $3 } next }
+  !/^#/ { t[++n] = $1; v[n] = $3; D[n] = $5 }
+  END {
+    for (i = 1; i <= n; i++) if (t[i] - t[1] > 0.219 && t[n] - t[i] > 0.219) { sum += (1e3 * (D[i] - a * v[i]^b))^2; rows++ }
+    printf "%.4f\n", sqrt(sum / rows) }' - "$scratch/shifts" >"$scratch/said"
+grep -o 'Bars: scatter, ± [0-9.]*' "$scratch/bars.svg" | awk -v is="$(cat "$scratch/said")" '
+  { exit !(($4 / is - 1)^2 < 1e-4) }' || complain "fig4: bars of $(grep -o 'Bars: [^<]*' "$scratch/bars.svg"), not $(cat "$scratch/said")"
 # A slope, the column that is drawn, and columns by their place are those of the tools.
 simulate --scene samples/CR.toml --slope 0.002 --sensor pasco --seed 3 | cut -d , -f 1,2 >"$scratch/CR.csv"
 samples/figures/fig4.sh -K 0.5 -R 0.04 --slope 0.002 "$scratch/CR.csv" >"$scratch/sloped.svg" ||
