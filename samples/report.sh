@@ -155,7 +155,7 @@ inertia <i>K m R</i>²,</p>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
-All lengths are in proportion, and so are all forces but the one whose arrow has a break. The shift
+All lengths are in proportion, and so are all forces but the two whose arrows have a break. The shift
 is so small beside the radius that
 it takes the enlarged panels to see it; the horizontal force, too, is small beside the weight. Both
 make the force <i>F</i><sub>S</sub> of the mat. It is less off the vertical than the line from P to the

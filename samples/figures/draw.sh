@@ -102,9 +102,13 @@ prepare() {
     mv named readings
   fi
   smooth ${quiet:+-q} --coast -c $column readings >rolls
-  awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("roll" n) }' rolls
+  separate rolls roll
   sed -n 's/^## run //p' rolls | sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' >names
   count=$(($(wc -l <names)))
+}
+# separate FILE NAME: its runs as NAME1, NAME2 and so on.
+separate() {
+  awk -v name="$2" 'BEGIN { file = name (n = 1) } /^$/ { close(file); file = name (++n); next } { print >file }' "$1"
 }
 take() {
   smooth ${quiet:+-q} -w 1 -c "$1" ${use[@]+"${use[@]}"} ${run[@]+"${run[@]}"} -- "${files[@]}" \
@@ -120,7 +124,7 @@ body() {
 # fit FILE: the law of each run in it as fit1, fit2 and so on.
 fit() {
   fitpower ${quiet:+-q} --each -K "$K" -R "$R" "--slope=$slope" ${law[@]+"${law[@]}"} "$@" >fits
-  awk '/^##/ { next } /^#/ { names = $0; next } { print names "\n" $0 >("fit" ++n) }' fits
+  awk '/^##/ { next } /^#/ { names = $0; next } { file = "fit" (++n); print names "\n" $0 >file; close(file) }' fits
 }
 # The energies of one run: `measured`, by velocities that are the slopes of parabolas, and `fitted`, with
 # t, E_trans, E_rot, E_diss, W_g, v; $parts of the four energies count, from $start on.
@@ -172,10 +176,10 @@ whole_windows() {
     }'
 }
 
-# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp. $title is
-# the title of the SVG, which readers for the blind and browsers tell. A PNG has 240 dots an inch
-# where the SVG has 96. The symbols of the terminals are made alike: those of svg are thin, those of
-# cairo small.
+# draw WIDTH HEIGHT [ASSIGNMENTS]: gnuplot on the commands of standard input, after style.gp and
+# runs.gp. $title is the title of the SVG, which readers for the blind and browsers tell. A PNG has 240
+# dots an inch where the SVG has 96. The symbols of the terminals are made alike: those of svg are thin,
+# those of cairo small.
 draw() {
   local terminal=svg size=$1,$2 font=14
   cd "$scratch"
@@ -189,7 +193,7 @@ draw() {
   esac
   LC_ALL=C.UTF-8 gnuplot -d \
     -e "set terminal $terminal size $size font 'sans-serif,$font' background 'white'" \
-    -e "own = $own; count = $count; ${3:-}" style.gp /dev/stdin |
+    -e "own = $own; count = $count; ${3:-}" style.gp runs.gp /dev/stdin |
     if [ "$form" = svg ]; then
       sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/
         s|<title>Gnuplot</title>|<title>${title:?}</title>|; s|<title>gnuplot_[^<]*</title>||"

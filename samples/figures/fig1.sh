@@ -12,7 +12,7 @@ takes='slope seconds' seconds=0.44
 prepare CR SR CF SF
 fit --route $route rolls
 velocities() { if [ "$column" = x ]; then differentiate -q -c x "$@"; else cat "$@"; fi; }
-awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("readings" n) }' readings
+separate readings readings
 for i in $(seq "$count"); do
   body "$i"
   velocities "readings$i" >moving && columns moving t v >"raw$i"

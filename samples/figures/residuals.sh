@@ -14,7 +14,7 @@ takes=slope
 prepare CR
 fit --route $route rolls
 unit=mm && [ $column = x ] || unit=mm/s
-awk 'BEGIN { n = 1 } /^$/ { n++; next } { print >("readings" n) }' readings
+separate readings readings
 : >note
 : >outliers
 for i in $(seq "$count"); do

@@ -17,9 +17,6 @@ set style line 4 lc rgb '#0072B2' lw 2 dt 2 pt 2 ps 0.65
 do for [i = 1:4] { set style line 10 + i lc rgb 'black' lw 1.5 dt 2 - i % 2 }
 black = 0x000000; grey = 0xA0A0A0; pale = 0xE8E4DC; green = 0x009E73
 purple = 0xCC79A7; blue = 0x0072B2; vermilion = 0xD55E00
-runs = 'CR SR CF SF'
-array label[4] = ['C on rubber', 'S on rubber', 'C on felt', 'S on felt']
-array body[4] = ['C', 'S', 'C', 'S']
 number(x) = (x < 0 ? '−' : '').sprintf('%.3g', abs(x))
 # 13.5 N, 13.8 mN m, 14.7 kN
 quantity(x, unit) = abs(x) >= 1e6 ? number(x/1e6).' M'.unit : abs(x) >= 1e3 ? number(x/1e3).' k'.unit : \
@@ -30,14 +27,3 @@ set style line 5 lc rgb '#009E73' lw 2 dt 1 pt 9 ps 0.6
 set style line 6 lc rgb '#009E73' lw 2 dt 2 pt 4 ps 0.55
 set style line 7 lc rgb '#CC79A7' lw 2 dt 1 pt 13 ps 0.7
 set style line 8 lc rgb '#000000' lw 2 dt 2 pt 6 ps 0.55
-# Runs by their number: those of somebody's own each in another colour.
-array style[8] = [1, 3, 5, 7, 2, 4, 6, 8]
-line(i) = own ? style[(i - 1)%8 + 1] : i
-named = count > 16 ? 16 : count
-name(i) = own ? cut(system(sprintf('sed -n %dp names', i)), 24) : label[i]
-# A long name loses its middle.
-cut(name, room) = strlen(name) <= room ? name : \
-  substr(name, 1, (room - 1)/2).'…'.substr(name, strlen(name) - room/2 + 1, strlen(name))
-min(x, y) = x < y ? x : y; max(x, y) = x > y ? x : y
-# Every so many rows of a file, so that some `most` are drawn.
-thin(file, most) = int(system(sprintf("grep -c '^[^#]' %s", file)))/most + 1
