@@ -21,12 +21,14 @@ for i in $(seq "$count"); do
   simulate --law "fit$i" "${body[@]}" --at "roll$i" --columns t,v >"line$i"
 done
 title='Fig. 1: the velocity against time, measured and by the fitted law'
-draw 520 $((own ? 500 : 680)) <<'PLOT'
+[ "$own" = 0 ] || key=$((((count < 16 ? count : 16) + 3) / 2))
+draw 520 $((own ? 440 + 20 * key : 680)) <<'PLOT'
 set xzeroaxis lt -1 lw 0.5
 set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
 panels = own ? 1 : 2
-set multiplot layout panels,1 margins 0.14,0.97,own ? 0.26 : 0.09,0.98 spacing 0.1
-if (own) { set key outside center bottom horizontal samplen 2 width -1 font ',12' }
+rows = (named + 3)/2; H = 440.0 + 20*rows
+set multiplot layout panels,1 margins 0.14,0.97,own ? (62 + 20*rows)/H : 0.09,0.98 spacing 0.1
+if (own) { eval 'set key outside center bottom '.outside }
 if (!own) { set xrange [0.8:9.2]; set yrange [-0.05:0.55] }
 of(kind, i) = sprintf('%s%d', kind, i)
 do for [panel = 1:panels] {

@@ -45,10 +45,12 @@ printf 'K = %s,  R = %s m' "${K//+-/ ± }" "${R//+-/ ± }" >>note
 lines=$(($(wc -l <note) + 1))
 columns readings t >moments
 title='Residuals of a fit against time and against velocity'
-draw 520 $((600 + 18 * lines)) "lines = $lines; unit = '$unit'; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
-height = 600 + 18.0*lines
+above=0
+[ "$count" = 1 ] || above=$((20 * (((count < 16 ? count : 16) + 1) / 2)))
+draw 520 $((600 + 18 * lines + above)) "lines = $lines; unit = '$unit'; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
+above = count > 1 ? 20*((named + 1)/2) : 0; height = 600.0 + 18*lines + above
 below = (18*lines + 10)/height
-set multiplot layout 2,1 margins 0.16,0.955,below + 54/height,count > 1 ? 0.95 : 0.985 spacing 0.11
+set multiplot layout 2,1 margins 0.16,0.955,below + 54/height,1 - (10 + above)/height spacing 0.11
 set label 1 system('cat note') at screen 0.02, screen below - 10/height left font ',12' noenhanced
 file(name, i) = sprintf('%s%d', name, i)
 most = 2.5*rms
@@ -79,7 +81,7 @@ if (count == 1) {
     set label 4 "left\nout" at graph 0.99, 0.12 right font ',12'
   }
   set key off
-} else { set key outside top center horizontal }
+} else { eval 'set key outside top center '.outside }
 set xlabel 'time t / s'
 eval "plot for [i=1:count] file('residuals', i) using 1:3 with points ls line(i) notitle, ". \
   "for [i=1:named] keyentry with points ls line(i) title name(i) noenhanced".marks(1)
