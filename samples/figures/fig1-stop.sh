@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Fig. 1 near the stop, where the bodies roll backwards for a moment before they rest. The law D(v)
-# alone cannot show it; a bulge that remembers a rolled length does. That of the sample is not fitted:
-# it is the one of which the run was made. What roll-back.sh measures stands below.
+# alone cannot show it; a bulge that remembers a rolled length does: for the sample the one of which the
+# run was made, for a run of your own that of roll-back.sh, whose measurement stands below.
 #
 #   fig1-stop.sh [OPTION]... [FILE] >fig1-stop.svg      the cylinder on rubber, or a run of your own
 . "$(dirname "$0")/draw.sh"
@@ -17,18 +17,21 @@ roll >law
 # run the mean of its last second.
 stop=$(columns law t | tail -n 1) end=$(columns readings t | tail -n 1)
 roll --until "$end" --dt 0.005 >law
-# Of a run of your own no memory is known.
-if [ "$own" = 0 ]; then roll --until "$end" --dt 0.005 --memory 5e-4 --damping 0.02 >memory; else cp law memory; fi
 differentiate -q -c x readings >moving && columns moving t x v >raw
 "$samples/roll-back.sh" -K "$K" -R "$R" readings >back 2>said || { cat said >&2 && exit 2; }
+memory=0.5 damping=0.02 of_memory='0.5 mm (given, not fitted)'
+if [ "$own" -gt 0 ]; then  # a memory is one of a v^b
+  memory=$([ ${#law[@]} -gt 0 ] || sed -n 's/.* memory of \([0-9.]*\) .*/\1/p' back) damping=0 of_memory="$memory mm"
+fi
+cp law memory  # for gnuplot, which looks for it where it is not drawn, too
+[ -z "$memory" ] || roll --until "$end" --dt 0.005 --memory "${memory}e-3" --damping "$damping" >memory
 rest=$(columns moving t x | awk -v end="$end" '$1 > end - 1 { sum += $2; n++ } END { print sum / n }'
   tail -n 1 law | cut -f 2
   tail -n 1 memory | cut -f 2)
-sed 's/^/The roll backwards: /; s/+-/±/g; s/, goes/,\
-goes/' back | fold -s -w 72 >note
+{ printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g' | fold -s -w 70 >note
 title='Fig. 1, the stop: velocity and position near the stop, with the roll backwards'
-draw 520 720 "stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
-set multiplot layout 2,1 margins 0.15,0.98,0.14,0.98 spacing 0.1
+draw 520 740 "remembers = ${#memory}; of_memory = '$of_memory'; stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
+set multiplot layout 2,1 margins 0.15,0.98,0.16,0.98 spacing 0.1
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5
 set xlabel 'time after the stop that the law D(v) alone predicts / s'
 after(t) = t - stop
@@ -37,13 +40,13 @@ mm(x, i) = 1e3*sign*(x - word(rest, i))
 name = own ? name(1) : label[1]
 set ylabel 'velocity v / (mm/s)' offset 0.7, 0; set yrange [-22:110]
 plot 'raw' using (after($1)):(1e3*sign*$3) with points ls 1 ps 0.6 title name.': differences of the positions' noenhanced, \
-     for [i=1:!own] 'memory' using (after($1)):(1e3*$3) with lines ls 1 \
-       title 'with a memory of 0.5 mm (given, not fitted)', \
+     for [i=1:(remembers > 0)] 'memory' using (after($1)):(1e3*sign*$3) with lines ls 1 \
+       title 'with a memory of '.of_memory, \
      'law' using (after($1)):(1e3*sign*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
-set label 1 system('cat note') at screen 0.02, screen 0.055 left font ',12'
+set label 1 system('cat note') at screen 0.02, screen 0.075 left font ',12'
 plot 'raw' using (after($1)):(mm($2, 1)) with points ls 1 ps 0.6 title name.': the positions' noenhanced, \
-     for [i=1:!own] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 \
-       title 'with a memory of 0.5 mm (given, not fitted)', \
+     for [i=1:(remembers > 0)] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 \
+       title 'with a memory of '.of_memory, \
      'law' using (after($1)):(mm($2, 2)) with lines ls 12 title 'fitted law alone'
 PLOT
