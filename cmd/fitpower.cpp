@@ -157,8 +157,10 @@ void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fit
   out.flush();  // the rows stand above the report
 }
 
-/// The columns of a file without names. If --use says which is t, no column is v or D by its place.
+/// The columns of a file without names: those of the route, or speeds over time where the body is
+/// given, else v and D. If --use says which is t, no column is v or D by its place.
 std::vector<std::string> order_of_columns(const Tool& tool, std::optional<Route> route) {
+  if (!route && tool.given("shape-factor") && tool.given("radius")) route = Route::velocity;
   std::vector<std::string> names;
   if (route || !tool.uses("t"))
     for (const Quantity q : columns_of(route.value_or(Route::shift)))

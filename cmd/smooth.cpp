@@ -14,8 +14,10 @@ namespace {
 
 using namespace rolling;
 
-/// The column to smooth where none is given: v, else the first column that is not t.
-std::string default_column(const Reader& in, std::size_t t) {
+/// The column where none is given: to select rows alone x, as fitpower takes it; to smooth v; else
+/// the first column that is not t.
+std::string default_column(const Reader& in, std::size_t t, bool selects) {
+  if (selects && in.find("x")) return "x";
   return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
 }
 
@@ -129,7 +131,7 @@ int main(int argc, char** argv) {
   auto methods = by_name(smoothing_methods);
   SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
-            "the column to smooth (v, else the first that is not t)");
+            "the column to smooth (v; to select by x, else v; else the first that is not t)");
   tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
   tool.count("-w,--width", options.width.samples, whole,
              "width of the window, an odd number of rows (11)");
@@ -150,7 +152,7 @@ int main(int argc, char** argv) {
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need("t");
-    if (column.empty()) column = default_column(in, t);
+    if (column.empty()) column = default_column(in, t, selects);
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";

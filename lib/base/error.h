@@ -26,6 +26,13 @@ class OptionError : public Error {
   using Error::Error;
 };
 
+/// The readings show no motion of the kind that is asked for: perhaps the columns are not those
+/// that are meant.
+class MotionError : public Error {
+ public:
+  using Error::Error;
+};
+
 template <typename Kind>
 [[noreturn]] void throw_formatted(fmt::string_view text, fmt::format_args args) {
   throw Kind(fmt::vformat(text, args));

@@ -102,6 +102,20 @@ int Tool::finish(int status) {
   return std::max(status, failed_ ? 1 : 0);  // trouble is more than a check that does not hold
 }
 
+/// The message of an error. One that names no place is about the present row, and may come from
+/// columns that were taken without a name.
+std::string Tool::message_of(const Error& error) const {
+  const bool of_motion = typeid(error) == typeid(MotionError);
+  if (readers_.empty() || (typeid(error) != typeid(Error) && !of_motion)) return error.what();
+  const Reader& in = *readers_.back();
+  std::string text = in.where();
+  if (!text.empty()) text += ": ";
+  text += error.what();
+  if (of_motion && !in.assumed().empty())
+    text += fmt::format(" ({}; for other columns say --use)", in.assumed());
+  return text;
+}
+
 int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   // Denormal numbers are numbers, also where -ffast-math has linked code that makes them 0.
   std::fesetenv(FE_DFL_ENV);
@@ -120,10 +134,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     standard_input_taken_ = take_scene();
     doubt_radii();
     return finish(work());
-  } catch (const Error& error) {  // one of no class of its own is about the present row
-    const bool of_row =
-        typeid(error) == typeid(Error) && !readers_.empty() && !readers_.back()->where().empty();
-    say(of_row ? readers_.back()->where() + ": " + error.what() : error.what());
+  } catch (const Error& error) {
+    say(message_of(error));
   } catch (const std::bad_alloc&) {
     say("out of memory");
   } catch (const std::exception& error) {

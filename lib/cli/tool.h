@@ -211,6 +211,7 @@ class Tool {
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();
   void doubt_radii();  ///< that are hardly meant in metres
+  std::string message_of(const Error&) const;
   Reader& open(ReaderOptions, std::vector<std::string> order);
   int finish(int status);
 

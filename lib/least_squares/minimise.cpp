@@ -146,7 +146,8 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     const bool lost = freedom > 0 && gain * freedom < 1 && size > std::max(1.0, size_before);
     if (lost || gain == 0 || round == 20) fail("the fit does not converge: {}", choose_the_roll);
   }
-  if (!determined(best)) fail("the data do not determine the parameters: {}", choose_the_roll);
+  if (!determined(best))
+    fail<MotionError>("the data do not determine the parameters: {}", choose_the_roll);
   // A negligible step is taken without evaluating the residuals again.
   if (negligible(best)) best.theta = moved(std::move(best.theta), best.R.solve());
   return best;

@@ -73,7 +73,7 @@ std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions
   std::vector<FreeRoll> found = search_rolls(samples, positions, noise);
   if (found.empty()) {
     const auto [low, high] = std::ranges::minmax(y);
-    fail(
+    fail<MotionError>(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
         "slows down stands out of their noise of {:.1g}: choose the roll by its times (--from, "
         "--to)",

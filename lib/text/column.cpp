@@ -13,8 +13,8 @@ namespace rolling {
 namespace {
 
 constexpr std::pair<std::string_view, std::string_view> long_names[] = {
-    {"time", "t"},  {"position", "x"},     {"velocity", "v"},
-    {"speed", "v"}, {"acceleration", "a"}, {"shift", "D"}};
+    {"time", "t"},     {"position", "x"}, {"distance", "x"},     {"displacement", "x"},
+    {"velocity", "v"}, {"speed", "v"},    {"acceleration", "a"}, {"shift", "D"}};
 
 /// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
 /// beginning; returns the number, or the word if there is no number. A colon in brackets, or behind

@@ -91,6 +91,7 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
 /// or v by its name, the only speed as v, or else the only length as x. (A length beside a speed
 /// may be its accuracy.)
 void NeededColumns::serve_by_units() {
+  by_unit_.clear();
   if (!named_) return;
   const auto names = [&](const std::string& quantity) {
     return std::ranges::count(quantities_, quantity) > 0;
@@ -101,7 +102,9 @@ void NeededColumns::serve_by_units() {
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (unit_of(quantity, as_read_[i].unit) && !known_quantity(quantities_[i]))
         found.push_back(i);
-    if (found.size() == 1) quantities_[found.front()] = quantity;
+    if (found.size() != 1) continue;
+    quantities_[found.front()] = quantity;
+    by_unit_.insert(found.front());
   }
 }
 
@@ -214,6 +217,8 @@ void NeededColumns::resolve(Needed& needed) {
     fail<InputError>("{}: column {} is '{}', and '{}' in the runs before", place_, *found + 1,
                      shown(to_text({quantity, read.unit})),
                      shown(to_text({needed.quantity, needed.unit})));
+  if (by_unit_.contains(*found) && quantity == needed.name)
+    assume(*found, quantity, ", by its unit");
   needed.to_si = conversion(needed);
   converts_ |= needed.to_si.changes();
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,7 +65,8 @@ class NeededColumns {
   /// A needed column of this run has another name in the file.
   bool renames() const;
   /// The quantities so far whose columns say neither quantity nor unit, or have no unit where a
-  /// comment says one: `t is column 1, 'Frame', taken in s; ...`. Empty if there is none.
+  /// comment says one, or that only their units tell: `t is column 1, 'Frame', taken in s; v is
+  /// column 2, 'Wind', by its unit`. Empty if there is none.
   const std::string& assumed() const { return assumed_; }
 
  private:
@@ -89,6 +91,7 @@ class NeededColumns {
   // The run.
   std::vector<Column> as_read_, in_output_;
   std::vector<std::string> quantities_;
+  std::set<std::size_t> by_unit_;  // the columns that serve as a quantity for their unit alone
   bool named_ = false;
   SaidUnits said_;
   std::string place_;

@@ -110,6 +110,8 @@ class Reader {
   std::string where() const;
   /// Number of rows that were left out because a needed reading was missing.
   std::size_t left_out() const { return left_out_; }
+  /// What was assumed of columns so far (see NeededColumns).
+  const std::string& assumed() const { return needed_.assumed(); }
   /// What to tell of the input at its end: what was assumed of columns (see NeededColumns), and
   /// times so large that the step between two rows loses digits, or that they are hardly in s.
   std::vector<std::string> warnings() const;

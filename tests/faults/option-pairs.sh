@@ -6,11 +6,12 @@
 samples=$PWD/samples
 cd "$scratch" || exit 2
 
-# Two runs with a history, and a missing reading behind the last.
+# Two runs with a history, and a missing reading behind the last; the same with a D missing.
 smooth -q --coast -w 7 "$samples/CR.csv" "$samples/SR.csv" | differentiate |
   shift-from-accel -K 0.6 -R 0.05 |
   sed 's/\[[^]]*\]//g' >roll
 printf '99\tNaN\tNaN\tNaN\tNaN\n' >>roll
+awk -v FS='\t' -v OFS='\t' '/^#/ || !NF || /NaN/ { print; next } { $2 *= 1.0000123; if ($1 == 3.2) $5 = "NaN"; print }' roll >gap
 printf 'a b v0 slope\n2e-3 0.3 0.45 3e-4\n' >row
 printf 'a b v0\n2e-3 0.3 0.45\n' >law
 printf 'a b x0 run\n2e-3 0.3 0.4 one\n2e-3 0.3 0.5 two\n' >rows
@@ -25,7 +26,7 @@ excused='--sensor pasco --method rkf45|--sensor pasco --law rows --run two|--use
 scene='-g 9.7|--slope 0.001|--exact|--scene scene'
 input='--run 2|--strict|--digits 5'
 declare -A begin=(
-  [smooth]='smooth roll'
+  [smooth]='smooth gap'
   [differentiate]='differentiate roll'
   [shift-from-accel]='shift-from-accel -K 0.5 -R 0.04 roll'
   [fitpower]='fitpower --route shift -K 0.6 -R 0.05 roll'
@@ -33,7 +34,7 @@ declare -A begin=(
   [energy-ledger]='energy-ledger -m 1 -K 0.5 -R 0.04 roll'
 )
 declare -A options=(
-  [smooth]="-c x|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--rolls|--from 3|--to 4|--equal-times mean|--use t=x|$input"
+  [smooth]="-c D|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--rolls|--from 3|--to 4|--equal-times mean|--use t=x|$input"
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
   [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"

@@ -29,6 +29,9 @@ TEST_CASE("column: a name says its quantity and its unit", "[text]") {
       {"Time\xC2\xA0(\xC2\xA0s\xC2\xA0)", {"t", "s", ""}},
       {"Time\xE2\x80\xAF(\xE2\x80\x89ms)", {"t", "ms", ""}},  // thin blanks
       {"Position (m)", {"x", "m", ""}},
+      {"Distance (cm)", {"x", "cm", ""}},
+      {"DISPLACEMENT", {"x", "", ""}},
+      {"Trip Distance (km)", {"Trip_Distance", "km", ""}},
       {"Acceleration (m/s^2)", {"a", "m/s^2", ""}},
       {"Acceleration (m/s2)", {"a", "m/s^2", ""}},
       {"Acceleration (m/s\xC2\xB2)", {"a", "m/s^2", ""}},

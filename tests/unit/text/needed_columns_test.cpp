@@ -127,6 +127,26 @@ TEST_CASE("needed columns: a name that is a unit is that unit, where --use gives
   CHECK(needed.assumed() == "v is column 1, 'ms', taken in m/s");
 }
 
+TEST_CASE("needed columns: a choice that no name made is told", "[text]") {
+  const auto told = [](const Texts& names, const Texts& wanted) {
+    NeededColumns needed({}, true);
+    needed.begin_run(columns(names), true, {}, "FILE");
+    for (const std::string& name : wanted) needed.add(name, Kind::needed);
+    return needed.assumed();
+  };
+  CHECK(told({"Zeit (s)", "Weg (m)", "Wind (m/s)"}, {"t", "v"}) ==
+        "t is column 1, 'Zeit', by its unit; v is column 3, 'Wind', by its unit");
+  CHECK(told({"t", "H\xC3\xB6he (m)"}, {"t", "x"}) == "x is column 2, 'H??he', by its unit");
+  CHECK(told({"t", "Altitude (ft)"}, {"t", "x"}) == "x is column 2, 'Altitude', by its unit");
+  CHECK(told({"t", "Diameter (mm)"}, {"t", "x"}) == "x is column 2, 'Diameter', by its unit");
+  CHECK(told({"Exposure (ms)", "v"}, {"t", "v"}) == "t is column 1, 'Exposure', by its unit");
+  // What is not needed was not chosen; and what is named, or asked for by its own name, is not
+  // told.
+  CHECK(told({"Exposure (ms)", "v"}, {"v"}).empty());
+  CHECK(told({"Time (s)", "Distance (m)"}, {"t", "x"}).empty());
+  CHECK(told({"Time (s)", "Weg (m)"}, {"t", "Weg"}).empty());
+}
+
 TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"t[s]", "w[rad/s]"}) ==
         "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
