@@ -95,6 +95,8 @@ struct Task {
   double way = 1;  ///< -1 towards falling x: `roll` is the mirror image, with v0 >= 0
   double t0 = 0;
   LawOptions law{};
+  std::string height;
+  std::unique_ptr<const Road> road;
   std::string run;  ///< whose row of the file of laws is rolled
   LawOfFile law_of_file{};
   bool foretells = false;  ///< the uncertainties of the motion are asked for
@@ -118,6 +120,8 @@ struct Task {
     roll.law = law_of_file.law;
     roll.body = law_of_file.contact.body;
     roll.geometry = law_of_file.contact.geometry;
+    road = read_road(tool, height);
+    roll.body.road = road.get();
     const auto take = [&](const char* option, double of_row, double& value) {
       if (!std::isnan(of_row) && !tool.on_command_line(option)) value = of_row;
     };
@@ -133,6 +137,7 @@ struct Task {
     if (foretells && !std::isnan(law_of_file.slope) && !tool.on_command_line("slope"))
       fail<OptionError>(
           "sigma_x and sigma_v do not have the uncertainty of the slope of the row: say --slope");
+    if (roll.v0 < 0 && roll.body.road) roll.body.road = roll.body.road->mirrored();
     if (roll.v0 < 0)
       way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way,
       roll.body.wind *= way;
@@ -151,6 +156,8 @@ void check_options(const Tool& tool, const Task& task) {
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
   if (task.law.file.empty()) tool.refuse({"run"}, "goes with --law and its rows");
+  if (task.road)
+    tool.refuse({"report", "memory"}, "does not go with --height, which has one method");
   if (tool.on_command_line("at"))
     tool.refuse({"dt", "until"}, "does not go with --at, whose file has all times");
   if (task.method.kind != Method::solver && !task.report)
@@ -196,6 +203,7 @@ void add_options(Tool& tool, Task& task) {
   roll.v0 = not_given;
   tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
   add_wind(tool, roll.body);
+  add_height(tool, task.height);
   add_options(tool, task.law);
   tool.text("--run", task.run, "NAME", "the run whose row of --law is rolled");
   tool.geometry(roll.geometry);
@@ -235,6 +243,7 @@ class RowWriter {
               fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, task_.way * v0) +
               (body.slope == 0 ? "" : fmt::format(" slope {}", task_.way * body.slope)) +
               (body.wind == 0 ? "" : fmt::format(" wind {}", task_.way * body.wind)) +
+              (task_.height.empty() ? "" : " height " + std::string(shown(task_.height))) +
               (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)) +
               (geometry == Geometry::exact ? " exact" : ""));
     out_.end_line();

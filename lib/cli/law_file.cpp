@@ -255,6 +255,31 @@ void check_wind(const Body& body, const Law& law) {
     fail<OptionError>("--wind acts on a term d2 v^2, which this law does not have");
 }
 
+void add_height(Tool& tool, std::string& file) {
+  tool.text("--height", file, "FILE",
+            "table of x and h: the height of the track along the way x of the body's centre");
+}
+
+std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file) {
+  if (file.empty()) return {};
+  tool.refuse({"slope"}, "does not go with --height, which has the slope");
+  Reader& in = tool.read_file(file, {"x", "h"});
+  const auto x = in.need("x");
+  const auto h = in.need_as_is("h", "m");
+  std::vector<double> places;
+  std::vector<double> heights;
+  while (in.next_run())
+    while (in.next()) {
+      places.push_back(in[x]);
+      heights.push_back(in[h]);
+    }
+  try {
+    return std::make_unique<const Road>(std::move(places), std::move(heights));
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", file, error.what());
+  }
+}
+
 std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,
                                  bool with_errors) {
   const std::string& file = options.file;

@@ -2,6 +2,7 @@
 // Laws D(v) as people write them, and the file of the option --law.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "base/matrix.h"
 #include "cli/tool.h"
 #include "contact/law.h"
+#include "contact/road.h"
 #include "fit/input.h"
 #include "text/column.h"
 
@@ -41,6 +43,10 @@ void add_options(Tool&, LawOptions&);
 /// --wind, and an Error for a wind under a law that has no term for the drag of the air.
 void add_wind(Tool&, Body&);
 void check_wind(const Body&, const Law&);
+
+/// --height, and the road of its table, x and h; refuses --slope beside it.
+void add_height(Tool&, std::string& file);
+std::unique_ptr<const Road> read_road(Tool&, const std::string& file);
 
 /// A law as a file tells it, and the body that rolls under it.
 struct LawOfFile {

@@ -6,6 +6,8 @@
 
 namespace rolling {
 
+class Road;
+
 /// A round body that rolls without sliding; J = K m R^2 (Eq. 2).
 struct Body {
   double m;          ///< mass [kg]
@@ -15,7 +17,9 @@ struct Body {
   double slope = 0;  ///< of the mat: tan theta, its rise in metres per metre of growing x
   /// The standard uncertainties, each in the unit of its number; 0 if none is given.
   double sigma_R = 0, sigma_K = 0, sigma_g = 0, sigma_slope = 0;
-  double wind = 0;  ///< speed of the air towards falling x [m/s], for a law with d2 v^2
+  double wind = 0;             ///< speed of the air towards falling x [m/s], for a law with d2 v^2
+  const Road* road = nullptr;  ///< the height of the track, to which the slope adds a constant
+  double steepness = 1;        ///< factor of that height
 };
 
 /// The numbers of a body that may have a standard uncertainty.

@@ -33,13 +33,15 @@ namespace rolling {
 class Leg {
  public:
   static constexpr std::size_t most = LawForm::most + 2;
-  static constexpr double negligible = 1e-6;     ///< speeds below it, as a part of v0, are rest
-  using Derivatives = std::array<double, most>;  ///< by the coefficients, the slope, the wind
+  static constexpr double negligible = 1e-6;  ///< speeds below it, as a part of v0, are rest
+  /// By the coefficients, the slope, the wind and, of a RoadRoll, the steepness.
+  using Derivatives = std::array<double, most + 1>;
   struct Point {
     double v, x;
     double a;  ///< dv/dt
     double v_v0, x_v0;
     Derivatives v_c, x_c;
+    double v_x0 = 0, x_x0 = 1;
   };
   /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion, in the wind
   /// body.wind against it; from 0 it ends at once. Throws Error if the law is not defined there.

@@ -49,9 +49,11 @@ void check_roll(const Body& body, const Law& law, double v0) {
   check_shift(body, D);
 }
 
-Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0)
+Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
     : Leg(checked(body, law, v0), geometry, law, v0), way_on_(v0 == 0 && holds(-1) ? 1 : -1),
-      turns_((v0 == 0 || slows()) && !holds(way_on_)) {}
+      turns_((v0 == 0 || slows()) && !holds(way_on_)) {
+  if (body.road) road_ = std::make_shared<RoadRoll>(body, geometry, law, v0, x0);
+}
 
 /// Slope and wind as a body sees them that rolls in this direction.
 Body Roll::from_rest(double way) const {
@@ -87,6 +89,7 @@ double Roll::last_speed() { return turns_ ? way_on_ * back().last_speed() : Leg:
 // With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
 // x = X - way(t - T).
 Roll::Point Roll::at(double t) {
+  if (road_) return road_->at(t);
   if (!turns_ || stop_until(t) > t) return Leg::at(t);
   const double since = t - stop_time(), sign = way_on_;
   const Point turn = Leg::at(stop_time());

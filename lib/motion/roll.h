@@ -3,9 +3,11 @@
 // time, with its derivatives by the coefficients of the law, by the slope, by the wind and by v0.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "motion/leg.h"
+#include "motion/road_roll.h"
 
 namespace rolling {
 
@@ -19,6 +21,8 @@ void check_roll(const Body&, const Law&, double v0);
 /// that the mat does not hold begins to roll down. A head wind may blow a body back, too, which is
 /// then in a tail wind.
 ///
+/// On a road of any height it is a RoadRoll.
+///
 /// In the exact geometry D may grow to R as the body slows down. There it stays, so that A = 0 and
 /// v' = -g cos(theta)/K (Eq. 12) down to the stop; with A = 1, Eq. 12 holds for any D.
 ///
@@ -30,13 +34,16 @@ class Roll : Leg {
  public:
   using Leg::most, Leg::Point, Leg::Derivatives;
   // Of the first leg; its stop is the turning point of a roll that turns.
-  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed, Leg::stop_time, Leg::stop_time_by_c,
-      Leg::stop_until;
+  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed;
+  double stop_time() { return road_ ? road_->stop_time() : Leg::stop_time(); }
+  Derivatives stop_time_by_c() { return road_ ? road_->stop_time_by_c() : Leg::stop_time_by_c(); }
+  double stop_until(double t) { return road_ ? road_->stop_until(t) : Leg::stop_until(t); }
 
   /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
   /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the
   /// exact geometry for D(v0) > R.
-  Roll(const Body&, Geometry, const Law&, double v0);
+  /// x0 is where the roll begins on a road, whose errors are those of RoadRoll.
+  Roll(const Body&, Geometry, const Law&, double v0, double x0 = 0);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
   /// the coefficients of the law and, behind them, by the slope and the wind. Once the body rests,
@@ -44,7 +51,7 @@ class Roll : Leg {
   Point at(double t);
 
   /// True if the body rolls back after stop_time().
-  bool turns() const { return turns_; }
+  bool turns() { return road_ ? road_->turns() : turns_; }
   /// The direction in which it rolls then: -1, but 1 for one that begins at rest and rolls forward.
   double way_on() const { return way_on_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
@@ -58,6 +65,7 @@ class Roll : Leg {
   bool holds(double way) const;
   Leg& back();
 
+  std::shared_ptr<RoadRoll> road_;  // if the body has one; shared by copies
   std::optional<Leg> back_;
   double way_on_;
   bool turns_;

@@ -16,7 +16,7 @@ namespace {
 class SpeedRoll final : public Motion {
  public:
   SpeedRoll(const Scene& scene)
-      : roll_(scene.body, scene.geometry, scene.law, scene.v0), geometry_(scene.geometry),
+      : roll_(scene.body, scene.geometry, scene.law, scene.v0, scene.x0), geometry_(scene.geometry),
         x0_(scene.x0) {
     seek(0);
   }
@@ -35,7 +35,8 @@ class SpeedRoll final : public Motion {
   double position() override { return x0_ + state_.x; }
   double velocity() override { return state_.v; }
   double acceleration() override {
-    return state_.a == 0 ? 0 : acceleration_from_shift(roll_.body(), geometry_, shift());
+    if (state_.a == 0 || roll_.body().road) return state_.a;
+    return acceleration_from_shift(roll_.body(), geometry_, shift());
   }
   double shift() override {
     const double D = roll_.law()(state_.v);
@@ -53,7 +54,7 @@ class SpeedRoll final : public Motion {
 
 /// The integrals of Roll are closed forms there (Eq. 13).
 bool has_closed_form(const Scene& s) {
-  return s.law.power() && s.geometry == Geometry::approximate && s.body.slope == 0;
+  return s.law.power() && s.geometry == Geometry::approximate && s.body.slope == 0 && !s.body.road;
 }
 
 }  // namespace
@@ -68,6 +69,8 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
   const auto& [body, geometry, law, bulge, v0, x0] = scene;
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   check_roll(body, law, v0);
+  if (body.road && method.kind == Method::solver)
+    fail("a track with a height has no other method than exact, and no memory");
   if (bulge.length > 0) {
     if (method.kind != Method::solver)
       fail(

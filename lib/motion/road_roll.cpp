@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motion/road_roll.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "contact/contact.h"
+#include "contact/road.h"
+
+namespace rolling {
+namespace {
+
+constexpr double tolerance = 1e-12;     // of a step
+constexpr double at_rest = 1e-10;       // of the highest speed
+constexpr double least_speed = 1e-200;  // where the derivative of a v^b by b has a number
+constexpr double alike = 0.2;           // part of dv/dt by which it changes over the way to a turn
+constexpr std::size_t most_segments = 1'000'000;
+
+// Elements of a state.
+enum { of_t, of_x, of_clock, first };
+
+}  // namespace
+
+RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
+    : body_(body), geometry_(geometry), with_(law.in_wind(body.wind)),
+      against_(law.in_wind(-body.wind)), x0_(x0), highest_(std::abs(v0)), count_(law.size() + 3) {
+  const std::vector<double>& points = body.road->points();
+  if (!(x0 >= points.front() && x0 <= points.back()))
+    fail("the roll begins at x = {}, outside of the table of heights, {} to {}", x0, points.front(),
+         points.back());
+  end_.resize(first + 2 * (2 + count_));
+  end_[of_x] = x0;
+  heading_ = v0 < 0 ? -1 : 1;
+  in_place_ = v0 != 0;
+  const double a = rate(highest_, x0, heading_).a;
+  if (!std::isfinite(a)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
+  // By v0: at a fixed x the speed changes; from rest see from_rest(). By x0: at a fixed x the time
+  // and the speed, at rest the place.
+  if (in_place_) {
+    end_[of_clock] = v0 * v0 / 2;
+    end_[first + 1] = v0;
+    end_[first + 2] = -1 / v0;
+    end_[first + 3] = -a * heading_;
+  } else {
+    end_[first + 3] = 1;
+    heading_ = -1;
+  }
+}
+
+/// The formula of the class, with trial values of u and x.
+RoadRoll::Rate RoadRoll::rate(double u, double x, double way) const {
+  Rate r{};
+  const Law& law = way > 0 ? with_ : against_;
+  const Road::Place place = body_.road->at(x);
+  const double f = body_.steepness;
+  const double g = body_.g;
+  const double sin = f * place.h1 + body_.slope;
+  const double cos2 = 1 - sin * sin;
+  const double cos = std::sqrt(cos2);
+  const double bend = f * place.h2 / cos;
+  const auto [D, D_by_log_u] = law.at(u, r.a_p);
+  const bool exact = geometry_ == Geometry::exact;
+  const double ratio = D / body_.R;
+  const double A = !exact ? 1 : std::sqrt(std::max(0.0, 1 - ratio * ratio));
+  const double A_D = exact && A > 0 ? -ratio / body_.R / A : 0;
+  const double arm = (body_.K + A) * body_.R;
+  const double lift = body_.R * g * way * sin;
+  r.N = g * cos + bend * u * u;
+  r.a = -(D * r.N + A * lift) / arm;
+  const double by_D = -(r.N + A_D * lift + r.a * A_D * body_.R) / arm;
+  r.a_u = u > 0 ? by_D * D_by_log_u / u - 2 * D * bend * u / arm : 0;
+  // By a change of the sine, and by that of h''.
+  const double by_bend = -D * u * u / arm;
+  const double by_sin = -(D * (-g * sin / cos) + A * body_.R * g * way) / arm +
+                        by_bend * f * place.h2 * sin / (cos2 * cos);
+  r.a_x = by_sin * f * place.h2 + by_bend * f * place.h3 / cos;
+  const std::size_t n = law.size();
+  for (std::size_t j = 0; j < n; ++j) r.a_p[j] *= by_D;
+  r.a_p[n] = by_sin;
+  r.a_p[n + 1] = way * by_D * law.by_wind(u);
+  r.a_p[n + 2] = by_sin * place.h1 + by_bend * place.h2 / cos;
+  return r;
+}
+
+/// True if the track holds the body at rest, so that it does not begin to roll in this direction.
+bool RoadRoll::holds(double x, double way) const {
+  return rate(0, x, way).a <= 0 || rate(Leg::negligible * highest_, x, way).a <= 0;
+}
+
+/// The way to the next point of the table; 0 at its end.
+double RoadRoll::room(double x, double way) const {
+  const std::vector<double>& points = body_.road->points();
+  if (way > 0) {
+    const auto next = std::ranges::upper_bound(points, x);
+    return next == points.end() ? 0 : *next - x;
+  }
+  const auto next = std::ranges::lower_bound(points, x);
+  return next == points.begin() ? 0 : x - *(next - 1);
+}
+
+Integrator RoadRoll::clock_of(bool of_place) {
+  const auto by_place = [this](const double* y, double* dy) {
+    const double u = std::sqrt(2 * y[of_clock]);
+    const Rate r = rate(u, y[of_x], way_);
+    dy[of_t] = 1 / u;
+    dy[of_x] = way_;
+    dy[of_clock] = r.a;
+    for (std::size_t p = 0; p < 2 + count_; ++p) {
+      const double* const by = y + first + 2 * p;
+      double* const d = dy + first + 2 * p;
+      d[0] = -by[1] / (u * u * u);
+      d[1] = r.a_u / u * by[1] + (p < 2 ? 0 : r.a_p[p - 2]);
+    }
+  };
+  const auto by_speed = [this](const double* y, double* dy) {
+    const double w = y[of_clock];
+    const double u = std::max(w * w * w * w, least_speed);
+    const Rate r = rate(u, y[of_x], way_);
+    const double dt = change_ * 4 * w * w * w / r.a;
+    dy[of_t] = dt;
+    dy[of_x] = way_ * u * dt;
+    dy[of_clock] = change_;
+    for (std::size_t p = 0; p < 2 + count_; ++p) {
+      const double* const by = y + first + 2 * p;
+      double* const d = dy + first + 2 * p;
+      const double a = r.a_x * by[1] + (p < 2 ? 0 : r.a_p[p - 2]);
+      d[0] = -dt * a / r.a;
+      d[1] = -way_ * u * dt * a / r.a;
+    }
+  };
+  OdeSystem system{by_place, nullptr, [](const double*) { return INFINITY; }};
+  if (!of_place) system.derivative = by_speed;
+  return {std::move(system), Stepper::rk8pd,
+          Tolerance{0.1 * tolerance, 1e-30, tolerance, std::vector<double>(end_.size(), 1)}, end_};
+}
+
+/// The state after this much of the clock of a segment.
+std::vector<double> RoadRoll::along(const Segment& segment, double length) {
+  way_ = segment.way;
+  change_ = segment.change;
+  std::optional<Integrator>& clock = change_ == 0 ? by_place_ : by_speed_;
+  if (!clock) clock = clock_of(change_ == 0);
+  clock->restart(0, segment.begin);
+  unsigned long steps = 10'000;
+  clock->advance(
+      length, [](const std::vector<double>&) { return 1.0; }, steps);
+  return clock->state();
+}
+
+/// Converts a state from the clock x to the clock u, and back.
+void RoadRoll::to_speed(std::vector<double>& y, double way) const {
+  const double u = std::sqrt(2 * y[of_clock]);
+  const double a = rate(u, y[of_x], way).a;
+  for (std::size_t i = first; i < y.size(); i += 2) {
+    const double dt = -y[i + 1] / u / a;
+    y[i] += dt;
+    y[i + 1] = way * u * dt;
+  }
+  y[of_clock] = std::sqrt(std::sqrt(u));
+}
+
+void RoadRoll::to_place(std::vector<double>& y, double way) const {
+  const double u = std::pow(y[of_clock], 4);
+  const double a = rate(u, y[of_x], way).a;
+  for (std::size_t i = first; i < y.size(); i += 2) {
+    const double dx = y[i + 1];
+    y[i] -= way * dx / u;
+    y[i + 1] = -a * way * dx;
+  }
+  y[of_clock] = u * u / 2;
+}
+
+/// From a turning point, or from the beginning at rest: until the speed has changed dv/dt to a
+/// half, or the way is that to the next point or changes dv/dt by much.
+RoadRoll::Segment RoadRoll::from_rest() const {
+  const double x = end_[of_x];
+  for (const double way : {-heading_, heading_}) {
+    if (holds(x, way)) continue;
+    const Rate r = rate(least_speed, x, way);
+    const double length = std::min(room(x, way), alike * r.a / std::abs(r.a_x));
+    double u = std::sqrt(length * r.a);
+    while (!(rate(u, x, way).a > r.a / 2) && u > 0) u /= 2;
+    if (!(u > 0))
+      fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t], x);
+    Segment next{way, 1, std::pow(u, 0.25), end_};
+    if (segments_.empty()) next.begin[first] = -way / r.a;  // by v0, at a fixed speed
+    return next;
+  }
+  return {heading_, 1, 0, end_};
+}
+
+/// From a body that moves: to the next point, not beyond half of the energy; or to the turn.
+RoadRoll::Segment RoadRoll::onwards() {
+  Segment next{heading_, 0, room(end_[of_x], heading_), end_};
+  const double E = end_[of_clock];
+  const double u = std::sqrt(2 * E);
+  highest_ = std::max(highest_, u);
+  const Rate r = rate(u, end_[of_x], heading_);
+  if (!(r.N > 0))
+    fail("the body leaves the track at t = {:.6g} s, x = {:.6g} m", end_[of_t], end_[of_x]);
+  if (next.length == 0)
+    fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t],
+         end_[of_x]);
+  if (u <= at_rest * highest_) {
+    next.length = 0;
+    return next;
+  }
+  const double slows = -std::max(r.a, rate(least_speed, end_[of_x], heading_).a);
+  if (slows > 0 && E < 2 * next.length * slows && std::abs(r.a_x) * E < alike * slows * slows) {
+    next.change = -1;
+    to_speed(next.begin, heading_);
+    next.length = next.begin[of_clock];
+  } else if (E < -2 * next.length * r.a) {
+    next.length = std::min(next.length, E / (-2 * r.a));
+  }
+  return next;
+}
+
+void RoadRoll::add_segment() {
+  if (segments_.size() >= most_segments)
+    fail("the body creeps: t = {:.6g} s is as far as it can be followed", end_[of_t]);
+  Segment next = in_place_ ? onwards() : from_rest();
+  heading_ = next.way;
+  if (!next.rests()) end_ = along(next, next.length);
+  in_place_ = next.change >= 0;
+  if (next.change > 0) to_place(end_, next.way);
+  if (next.change < 0) end_[of_clock] = 0;
+  segments_.push_back(std::move(next));
+}
+
+/// The state by its derivatives at a fixed time, this much later than y, which is hardly more.
+RoadRoll::Point RoadRoll::point(const Segment& segment, const std::vector<double>& y,
+                                double after) const {
+  const bool of_place = segment.change == 0;
+  const double way = segment.way;
+  const double u = of_place ? std::sqrt(2 * y[of_clock]) : std::pow(y[of_clock], 4);
+  const Rate r = rate(std::max(u, least_speed), y[of_x], way);
+  Point p{};
+  p.a = segment.rests() ? 0 : way * r.a;
+  p.v = segment.rests() ? 0 : way * (u + r.a * after);
+  p.x = y[of_x] - x0_ + way * (u + r.a * after / 2) * after;
+  const auto set = [&](std::size_t number, double& v_p, double& x_p) {
+    const double dt = y[first + 2 * number];
+    const double other = y[first + 2 * number + 1];
+    x_p = (of_place ? 0 : other) - way * u * dt;
+    v_p = way * ((of_place ? other / u : 0) - r.a * dt);
+    if (segment.rests()) v_p = 0;
+  };
+  set(0, p.v_v0, p.x_v0);
+  set(1, p.v_x0, p.x_x0);
+  for (std::size_t j = 0; j < count_; ++j) set(2 + j, p.v_c[j], p.x_c[j]);
+  return p;
+}
+
+/// The state at t within a segment. The clock is found by Newton's method, from a cubic through
+/// both ends.
+RoadRoll::Point RoadRoll::landing(const Segment& segment, const std::vector<double>& end,
+                                  double t) {
+  const bool of_place = segment.change == 0;
+  const auto speed = [&](double clock) {
+    return of_place ? std::sqrt(2 * clock) : std::pow(clock, 4);
+  };
+  const auto slope = [&](double u, double x) { return of_place ? u : rate(u, x, segment.way).a; };
+  const std::vector<double>& begin = segment.begin;
+  const double u = speed(begin[of_clock]);
+  const double all = end[of_t] - begin[of_t];
+  const double part = (t - begin[of_t]) / all;
+  const double from = of_place ? 0 : u;
+  double to = segment.length;
+  double last = of_place ? std::sqrt(2 * end[of_clock]) : 0;
+  if (segment.change > 0) to = std::sqrt(2 * end[of_clock]);
+  if (segment.change < 0) to = 0;
+  if (!of_place) last = to;
+  const double rise = to - from;
+  const double bend_0 = slope(u, begin[of_x]) * all - rise;
+  const double bend_1 = rise - slope(last, end[of_x]) * all;
+  double q = from + rise * part + part * (1 - part) * (bend_0 * (1 - part) + bend_1 * part);
+  std::vector<double> y = begin;
+  for (int i = 0; i < 8; ++i) {
+    q = std::clamp(q, std::min(from, to), std::max(from, to));
+    double length = q;
+    if (!of_place) length = segment.change * (std::pow(q, 0.25) - begin[of_clock]);
+    y = length > 0 ? along(segment, std::min(length, segment.length)) : begin;
+    const double left = t - y[of_t];
+    if (std::abs(left) <= 1e-10 * all) break;
+    q += slope(speed(y[of_clock]), y[of_x]) * left;
+  }
+  return point(segment, y, t - y[of_t]);
+}
+
+RoadRoll::Point RoadRoll::at(double t) {
+  const auto rests = [&] { return !segments_.empty() && segments_.back().rests(); };
+  while (!rests() && (segments_.empty() || end_[of_t] <= t)) add_segment();
+  const auto after =
+      std::ranges::upper_bound(segments_, t, {}, [](const Segment& s) { return s.begin[of_t]; });
+  const Segment& segment = *(after - 1);
+  if (segment.rests() || t == segment.begin[of_t]) return point(segment, segment.begin, 0);
+  return landing(segment, after == segments_.end() ? end_ : after->begin, t);
+}
+
+/// The segment that begins at the first turning point, or the rest; none if that is later than t.
+const RoadRoll::Segment* RoadRoll::turn(double t) {
+  for (std::size_t i = 0;; ++i) {
+    if (i == segments_.size()) {
+      if (i > 0 && end_[of_t] > t) return nullptr;
+      add_segment();
+    }
+    const Segment& segment = segments_[i];
+    if (segment.begin[of_t] > t) return nullptr;
+    if (segment.rests() || segment.change > 0) return &segment;
+  }
+}
+
+double RoadRoll::stop_until(double t) {
+  const Segment* const at = turn(t);
+  return at ? at->begin[of_t] : INFINITY;
+}
+
+Leg::Derivatives RoadRoll::stop_time_by_c() {
+  const Segment& at = *turn(INFINITY);
+  Leg::Derivatives by{};
+  for (std::size_t j = 0; j < count_; ++j) by[j] = at.begin[first + 2 * (2 + j)];
+  return by;
+}
+
+}  // namespace rolling
