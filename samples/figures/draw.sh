@@ -181,7 +181,7 @@ whole_windows() {
 # dots an inch where the SVG has 96. The symbols of the terminals are made alike: those of svg are thin,
 # those of cairo small.
 draw() {
-  local terminal=svg size=$1,$2 font=14
+  local terminal=svg size=$1,$2
   cd "$scratch"
   case $form in
     png)
@@ -189,10 +189,10 @@ draw() {
       size="$(($1 * 5 / 2)),$(($2 * 5 / 2)) fontscale 1.95 linewidth 2.5 pointscale 3.2" ;;
     pdf)
       terminal=pdfcairo
-      size="$(awk "BEGIN { print $1 / 96 \"in,\" $2 / 96 \"in\" }") fontscale 0.75 linewidth 1" ;;
+      size="$(awk "BEGIN { print $1 / 96 \"in,\" $2 / 96 \"in\" }") fontscale 0.58 linewidth 1.6" ;;
   esac
   LC_ALL=C.UTF-8 gnuplot -d \
-    -e "set terminal $terminal size $size font 'sans-serif,$font' background 'white'" \
+    -e "set terminal $terminal size $size font 'sans-serif,14' background 'white'" \
     -e "own = $own; count = $count; ${3:-}" style.gp runs.gp /dev/stdin |
     if [ "$form" = svg ]; then
       sed "/id='gpPt/s/stroke-width='0[.0-9]*'/stroke-width='0.4'/
