@@ -103,7 +103,24 @@ prepare() {
   fi
   smooth ${quiet:+-q} --coast -c $column readings >rolls
   separate rolls roll
-  sed -n 's/^## run //p' rolls | sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' >names
+  # Of long names what all have in common is left out, in whole words.
+  sed -n 's/^## run //p' rolls | sed 's/\.[cCtT][sSxX][vVtT]\( [^ ]*\)\{0,1\}$/\1/' | awk '
+    function begins(text, n) { return substr(text, 1, n) }
+    function ends(text, n) { return substr(text, length(text) - n + 1) }
+    { name[NR] = $0; if (length($0) > 24) long = 1 }
+    END {
+      first = last = long && NR > 1 ? length(name[1]) : 0
+      for (i = 2; i <= NR; i++) {
+        while (begins(name[i], first) != begins(name[1], first)) first--
+        while (ends(name[i], last) != ends(name[1], last)) last--
+      }
+      while (first && substr(name[1], first, 1) !~ /[ _.-]/) first--
+      while (last && substr(name[1], length(name[1]) - last + 1, 1) !~ /[ _.-]/) last--
+      for (i = 1; i <= NR; i++) {
+        rest = length(name[i]) - first - last
+        print (rest > 0 ? (first ? "…" : "") substr(name[i], first + 1, rest) (last ? "…" : "") : name[i])
+      }
+    }' >names
   count=$(($(wc -l <names)))
 }
 # separate FILE NAME: its runs as NAME1, NAME2 and so on.
