@@ -45,7 +45,7 @@ stage() {
 # What belongs to the source: runs and results of somebody's own stay where they are. A name that
 # no pattern here fits is told by tests/house/install.sh.
 samples() {
-  set -- samples/*.sh samples/*.svg samples/README.md samples/coverage.txt samples/rolling.bib \
+  set -- samples/*.sh samples/*.svg samples/README.md samples/*.txt samples/rolling.bib \
     samples/[CS][FR].csv samples/[CS][FR].toml \
     samples/exports/capstone.csv samples/exports/phyphox.csv samples/exports/tracker.txt \
     samples/exports/vernier.csv
