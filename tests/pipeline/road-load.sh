@@ -1,0 +1,79 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# samples/road-load.sh finds the road load with which runs were made, one way and both, on a road that
+# rises and in a wind, and corrects it as GTR 15 does.
+set -u
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/../.." || exit 2
+root=$PWD
+export PATH="$root/bin:$PATH"
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 2
+wrong=0
+complain() { echo "$*" && wrong=1; }
+load() { "$root/samples/road-load.sh" "$@" 2>said; }
+# is NAME VALUE TOLERANCE: of the table on standard input
+is() {
+  awk -F '\t' -v name="$1" -v value="$2" -v tolerance="$3" '
+    $1 == name { found = 1; if (($2 - value)^2 > (tolerance * value)^2) print name " is " $2 ", not " value }
+    END { if (!found) print name " is missing" }' "${4:-table}"
+}
+are() { while read -r name value tolerance; do complaint=$(is "$name" "$value" "$tolerance"); [ -z "$complaint" ] || complain "$complaint"; done; }
+
+# A car of 150 N, .8 N/(km/h) and .030864198 N/(km/h)^2, that is .4 N s^2/m^2, and 1512 kg: with R = 1
+# its law is F/(m g). f* are those of the worked example: w1 2.5 N, K1 1.190476 N, a factor .9312 for
+# 12 C and .980541 for 285 K and 99.2 kPa.
+awk 'BEGIN { w = 1512 * 9.81; printf "d0[m] d1[s] d2[s^2/m]\n%.17g %.17g %.17g\n", 150 / w, 0.8 * 3.6 / w, 0.030864198 * 12.96 / w }' >car
+run() {  # SLOPE SEED [OPTION]...: in km/h, without a sign, and with a noise of .05 km/h
+  simulate --law car -K 0.04 -R 1 --v0 36 --dt 0.5 --until 90 --columns t,v --slope "$1" "${@:3}" |
+    awk -v seed="$2" -v size="$size" 'BEGIN { print "Time (s),Speed (km/h)" }
+      function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
+      !/^#/ { printf "%s,%.17g\n", $1, 3.6 * $2 + size * (uniform() - uniform()) }'
+}
+size=0 && run 0 1 >out
+load -m 1512 --rotating 60.48 --test-mass 1500 -T 12 -p 99.2 --anemometer 2.5 out >table || complain "$(cat said)"
+are <<'END'
+f0 150 1e-6
+f1 0.8 1e-5
+f2 0.030864198 1e-5
+f0_gtr15 136.2434 1e-6
+f1_gtr15 0.744960 1e-5
+f2_gtr15 0.0302636 1e-5
+END
+
+# Both ways on a road that rises by 1 mm a metre: within four standard uncertainties; F of the pairs.
+size=0.1
+for i in 1 2 3; do run 0.001 "10$i" >"out$i"; run -0.001 "20$i" >"back$i"; done
+load -m 1512 --rotating 60.48 out[1-3] --back back1 --back back2 --back back3 >table || complain "$(cat said)"
+awk -F '\t' '
+  function far(value) { return ($2 - value)^2 > 16 * $3^2 }
+  $1 == "f0" && (far(150) || $3 > 3) || $1 == "f1" && far(0.8) || $1 == "f2" && far(0.030864198) || $1 == "slope" && far(0.001)' \
+  table | grep . && wrong=1
+[ "$(grep -c '^f[012]\|^slope' table)" = 4 ] || complain "not all of them: $(cat table)"
+awk -F '\t' '/^# v/ { pairs = 1; next }
+  pairs { rows++; F = 150 + 0.8 * $1 + 0.030864198 * ($1^2 + 25 / 3); if ((($4 - F) / F)^2 > 0.01^2 || $3 > 5) print }
+  END { if (rows < 10) print rows + 0 " pairs" }' table | grep . && wrong=1
+
+# In a wind of 3 m/s that is fitted; without f1.
+size=0.1
+awk 'BEGIN { w = 1512 * 9.81; printf "d0[m] d2[s^2/m]\n%.17g %.17g\n", 150 / w, 0.4 / w }' >car
+run 0 31 --wind 3 >out1
+run 0 32 --wind -3 >back1
+load --no-f1 --wind fit -m 1512 --rotating 60.48 out1 --back back1 >table || complain "$(cat said)"
+awk -F '\t' '
+  function far(value) { return ($2 - value)^2 > 16 * $3^2 }
+  $1 == "f0" && (far(150) || $3 > 3) || $1 == "wind" && far(3)' table | grep . && wrong=1
+[ "$(grep -c '^f[02]\|^wind' table)" = 3 ] || complain "not all of them: $(cat table)"
+
+for words in '' 'out1' '-m 1 out1' '-m 1 --rotating x out1' '-m 1 --rotating 1 --standard sae out1' '-m 1 --rotating 1 nowhere'; do
+  # shellcheck disable=SC2086
+  load $words >table && complain "accepted: $words"
+  [ ! -s table ] && [ -s said ] || complain "$words: $(cat table said)"
+done
+if command -v gnuplot >/dev/null; then
+  load --no-f1 -m 1512 --rotating 60.48 -o force.svg out1 --back back1 >/dev/null || complain "$(cat said)"
+  grep -q '</svg>' force.svg || complain 'no figure'
+fi
+exit $wrong
