@@ -2,6 +2,7 @@
 // energy-ledger - append where the energy goes (Eqs. 1 to 23); see energy-ledger(1)
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "cli/history.h"
 #include "cli/law_file.h"
@@ -83,7 +84,9 @@ struct Task {
   bool summary = false;
   bool momenta = false;          ///< they are balanced too
   double tolerance = not_given;  ///< NaN without --check
-  std::size_t t, v, D;           ///< slots of the reader
+  std::size_t t, x, v, D;        ///< slots of the reader
+  std::string height;
+  std::unique_ptr<const Road> road;
 };
 
 /// The laws that the options tell, each in the wind of its run.
@@ -95,6 +98,16 @@ std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const
     law.law = law.law.in_wind(law.contact.body.wind);
   }
   return laws;
+}
+
+/// The line above the rows of a run: which D, law and scene were used.
+std::string line_of(const Task& task, const LawOfFile& law) {
+  const Body& body = law.contact.body;
+  std::string line = "energy-ledger " + (task.uses_law ? words_of(law.law) : "D");
+  if (body.slope != 0) line += fmt::format(" slope {}", body.slope);
+  if (body.wind != 0) line += fmt::format(" wind {}", body.wind);
+  if (body.road) line += " height " + std::string(shown(task.height));
+  return line;
 }
 
 /// Checks the balance of a run.
@@ -144,11 +157,17 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
     begin(law);
     Balance balance(body, task.momenta);
+    double first_height = 0;
     while (rows.next()) {
       const double v = in[task.v];
       if (task.uses_law) law.law.check_speed(v);
       const double D = task.uses_law ? law.law(v) : in[task.D];
-      const Ledger now(body, geometry, v, D);
+      const Ledger now(body, geometry, v, D, incline(body, in[task.x], v));
+      if (body.road) {
+        const double height = body.road->at(in[task.x]).h;
+        if (balance.energy.empty()) first_height = height;
+        balance.energy.set_lifted(now.F_G() * (height - first_height));
+      }
       balance.push(in[task.t], now);
       if (law.law.has_drag()) balance.push_air(in[task.t], power_to_air(law.law, now));
       beyond += std::abs(D) > body.R;
@@ -176,8 +195,9 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
 /// The table of --summary: a row for each run, with a blank cell for a closure that it does not
 /// have.
 int write_summary(Tool& tool, Reader& in, const Task& task) {
-  const bool inclined = std::ranges::any_of(
-      task.laws, [](const LawOfFile& law) { return law.contact.body.slope != 0; });
+  const bool inclined = std::ranges::any_of(task.laws, [](const LawOfFile& law) {
+    return law.contact.body.slope != 0 || law.contact.body.road;
+  });
   std::vector<Column> columns = {{"E_start", "J"}, {"E_end", "J"},    {"E_diss", "J"},
                                  {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
                                  {"closure_L", ""}};
@@ -210,6 +230,7 @@ int main(int argc, char** argv) {
   Body& body = task.given.body;
   tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
   add_wind(tool, body);
+  add_height(tool, task.height);
   add_options(tool, law);
   tool.geometry(task.given.geometry);
   tool.text("--columns", columns, "NAME,...",
@@ -241,6 +262,8 @@ int main(int argc, char** argv) {
     // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
     for (const UncertainNumber& number : uncertain_numbers) body.*number.sigma = 0;
     // A law on the command line takes precedence over a column D, the law of a scene does not.
+    task.road = read_road(tool, task.height);
+    body.road = task.road.get();
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
     const bool with_errors = is_chosen("sigma_D");
@@ -252,12 +275,13 @@ int main(int argc, char** argv) {
       task.laws = laws_in_wind(tool, law, task.given, with_errors);
     }
     if (!task.uses_law) {
+      tool.refuse({"wind"}, "goes with a law");
       tool.need({"radius", "shape-factor"});
       task.laws = {{.contact = task.given}};
     }
-    if (!task.uses_law) tool.refuse({"wind"}, "goes with a law");
     task.t = in.need("t");
     task.v = in.need("v");
+    task.x = body.road ? in.need("x") : task.v;
     task.D = task.uses_law ? task.v : in.need("D");
     task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
     if (task.summary) return write_summary(tool, in, task);
@@ -265,18 +289,11 @@ int main(int argc, char** argv) {
     for (const auto& quantity : row) filter.append(quantity.column());
     return balance_runs(
         tool, in, task, filter,
-        [&](const LawOfFile& law_of_run) {
-      const double slope = law_of_run.contact.body.slope;
-      const double wind = law_of_run.contact.body.wind;
-      filter.set_history(fmt::format("energy-ledger {}{}{}",
-                                     task.uses_law ? words_of(law_of_run.law) : "D",
-                                     slope == 0 ? "" : fmt::format(" slope {}", slope),
-                                     wind == 0 ? "" : fmt::format(" wind {}", wind)));
-        },
+        [&](const LawOfFile& law_of_run) { filter.set_history(line_of(task, law_of_run)); },
         [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
       for (const auto& quantity : row)
         filter.put(quantity.of({now, balance, temperature, law_of_run}));
-    },
+        },
         [](const Balance&) {});
   });
 }

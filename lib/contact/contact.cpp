@@ -4,10 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/error.h"
+#include "contact/road.h"
 
 namespace rolling {
+
+Incline incline(const Body& c, double x, double v) {
+  if (!c.road) return incline(c);
+  const std::vector<double>& points = c.road->points();
+  if (!(x >= points.front() && x <= points.back()))
+    fail("x = {:.6g} m is outside of the table of heights, {} to {}", x, points.front(),
+         points.back());
+  const Road::Place place = c.road->at(x);
+  const double sin = c.steepness * place.h1 + c.slope;
+  const double cos = std::sqrt(1 - sin * sin);
+  const double all = cos + c.steepness * place.h2 / cos * v * v / c.g;
+  if (!(all > 0)) fail("the body leaves the track at x = {:.6g} m, v = {:.6g} m/s", x, v);
+  return {all, sin};
+}
 
 void check_shift(const Body& c, double D) {
   if (!(std::abs(D) <= c.R)) fail("the shift D = {:.6g} m is beyond the radius {:.6g} m", D, c.R);

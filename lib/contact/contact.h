@@ -20,6 +20,11 @@ inline Incline incline(const Body& c) {
   return {1 / hypotenuse, c.slope / hypotenuse};
 }
 
+/// The same on body.road at x, for a body with the speed v: the curvature k, positive in a hollow,
+/// adds k v^2/g to cos theta. Throws Error outside of the table, and where the body leaves the
+/// track.
+Incline incline(const Body&, double x, double v);
+
 /// Throws Error if |D| > R, where the body has no point.
 void check_shift(const Body&, double D);
 

@@ -19,7 +19,10 @@ class Ledger {
   /// Velocity [m/s] and shift [m]. Throws Error when |D| > R in the exact geometry; with A = 1 the
   /// formulas hold for any D.
   Ledger(const Body& c, Geometry geometry, double v, double D)
-      : body_(c), incline_(incline(c)), v_(v), D_(D), omega_(v / c.R) {
+      : Ledger(c, geometry, v, D, incline(c)) {}
+  /// The same on another incline than that of the body, as on a road.
+  Ledger(const Body& c, Geometry geometry, double v, double D, const Incline& incline)
+      : body_(c), incline_(incline), v_(v), D_(D), omega_(v / c.R) {
     if (geometry == Geometry::exact) {
       check_shift(c, D);
       A_ = arm_factor(c, geometry, D);
@@ -153,11 +156,13 @@ class Account {
     worst_ = std::max(worst_, off);
   }
 
-  bool empty() const { return !begun_; }                  ///< no row has been added
-  double start() const { return start_; }                 ///< what is stored at the first row
-  double end() const { return end_; }                     ///< and at the last
-  double to_mat() const { return mat_.value(); }          ///< what has flowed into the mat so far
-  double to_gravity() const { return gravity_.value(); }  ///< and to gravity
+  bool empty() const { return !begun_; }          ///< no row has been added
+  double start() const { return start_; }         ///< what is stored at the first row
+  double end() const { return end_; }             ///< and at the last
+  double to_mat() const { return mat_.value(); }  ///< what has flowed into the mat so far
+  double to_gravity() const { return gravity_.value() + lifted_; }  ///< and to gravity
+  /// From the next row on so much has gone to gravity, beside the integral.
+  void set_lifted(double all) { lifted_ = all; }
 
   /// to_mat / (start - end - to_gravity) - 1: 0 if shift and velocity agree over the whole run. NaN
   /// if nothing is missing at the end.
@@ -168,21 +173,22 @@ class Account {
   double time_of_imbalance() const { return worst_time_; }  ///< the time of that moment [s]
 
  private:
-  double missing() const { return start_ - end_ - gravity_.value(); }
+  double missing() const { return start_ - end_ - to_gravity(); }
 
   Integral mat_, gravity_;
   bool inclined_;
   bool begun_ = false;
-  double start_ = 0, end_ = 0;
+  double start_ = 0, end_ = 0, lifted_ = 0;
   double worst_ = 0, worst_time_ = 0;  // the largest imbalance and its time [s]
 };
 
 /// The accounts of a run: of energy (Eq. 23), of momentum (Eq. 4) and of angular momentum (Eq. 5).
 class Balance {
  public:
-  /// The momenta are left out unless they are asked for.
+  /// The momenta are left out unless they are asked for. On a road the energy that is lifted is set
+  /// by the caller, from the height.
   Balance(const Body& body, bool momenta)
-      : Balance(body.slope != 0, momenta, Ledger(body, Geometry::approximate, 0, 0)) {}
+      : Balance(body, momenta, Ledger(body, Geometry::approximate, 0, 0)) {}
 
   /// Adds the next row of the run: its time [s] and its quantities.
   void push(double t, const Ledger& now) {
@@ -203,9 +209,9 @@ class Balance {
   double L_N() const { return 0 - L.to_mat() - L_H(); }
 
  private:
-  Balance(bool inclined, bool momenta, const Ledger& rest)
-      : energy(inclined), p(inclined, rest.I_pH()), L(false, rest.I_LH() + rest.I_LN()),
-        L_H_(rest.tau_H()), momenta_(momenta) {}
+  Balance(const Body& body, bool momenta, const Ledger& rest)
+      : energy(body.slope != 0), p(body.slope != 0 || body.road, rest.I_pH()),
+        L(false, rest.I_LH() + rest.I_LN()), L_H_(rest.tau_H()), momenta_(momenta) {}
 
   Integral L_H_, air_;
   bool momenta_;
