@@ -186,6 +186,15 @@ std::string why_left_out(Route route, const FitOptions& options) {
   return why;
 }
 
+/// Refuses a limit of speed above all rows.
+void refuse_slow(const std::vector<Run>& runs, const FitOptions& options) {
+  double fastest = NAN;
+  for (const Run& run : runs)
+    for (const double v : run.v) fastest = std::fmax(fastest, std::abs(v));
+  if (fastest < options.min_speed)
+    fail<OptionError>("--min-speed {}: the fastest row has {:.3g} m/s", options.min_speed, fastest);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -222,6 +231,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     Reader& in = tool.read(order_of_columns(tool, given_route));
+    if (in.find("sigma_a") || in.find("sigma_d0"))
+      fail<InputError>("these are rows of fitpower: --route fits joins them");
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
@@ -231,6 +242,7 @@ int main(int argc, char** argv) {
 
     auto runs = read_runs(tool, in, route);
     doubt_wind(tool, options, each ? 1 : runs.size());
+    refuse_slow(runs, options);
     if (!each) warn_of_copies(tool, route, runs);
     if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);

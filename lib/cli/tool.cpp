@@ -62,6 +62,7 @@ Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");
   }
+  for (const std::string& file : options.files) refuse_misplaced(file);
   return *readers_.emplace_back(std::make_unique<Reader>(std::move(options), std::move(order)));
 }
 
@@ -111,6 +112,7 @@ std::string Tool::message_of(const Error& error) const {
   std::string text = in.where();
   if (!text.empty()) text += ": ";
   text += error.what();
+  if (of_motion && !fixed_values().empty()) text += fmt::format(" (given: {})", fixed_values());
   if (of_motion && !in.assumed().empty())
     text += fmt::format(" ({}; for other columns say --use)", in.assumed());
   return text;

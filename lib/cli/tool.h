@@ -212,6 +212,9 @@ class Tool {
   bool take_scene();
   void doubt_radii();  ///< that are hardly meant in metres
   std::string message_of(const Error&) const;
+  std::string fixed_values() const;  ///< `--fix a=2e-3, --slope 0.1`: on the command line
+  /// Refuses `K=0.5`, which is meant as an option, unless there is a file of that name.
+  void refuse_misplaced(const std::string& file) const;
   Reader& open(ReaderOptions, std::vector<std::string> order);
   int finish(int status);
 

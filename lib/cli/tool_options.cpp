@@ -4,9 +4,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/version.h"
@@ -96,6 +99,16 @@ constexpr BodyOption body_options[] = {
     {"--slope", &Body::slope, &Body::sigma_slope, any_number,
      "rise of the mat in metres per metre of growing x (0)"}};
 
+/// What CLI11 says of an option without a value, or with too many: `--width: 1 required N missing`.
+std::string in_our_words(std::string_view said) {
+  const std::string name(said.substr(std::min(said.find_first_not_of('-'), said.size())));
+  const std::string option = "--" + name.substr(0, name.find_first_of(": "));
+  if (said.find("override") != std::string_view::npos) return option + " takes no value";
+  if (said.find("At Most") != std::string_view::npos) return option + " is given twice";
+  if (said.find("missing") != std::string_view::npos) return option + " needs a value";
+  return std::string(said);
+}
+
 /// An explanation in lines that fit beside the names of the options.
 std::string wrapped(std::string words) {
   constexpr std::size_t width = 79 - help_column;
@@ -147,11 +160,12 @@ Tool::~Tool() = default;
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
                Values values) {
   CLI::callback_t take = [names, set = std::move(set)](const std::vector<std::string>& texts) {
-    try {
-      for (const std::string& text : texts) set(without_mark(text));
-    } catch (const Error& error) {
-      fail("{}: {}", names, error.what());
-    }
+    for (const std::string& text : texts) try {
+        set(without_mark(text));
+      } catch (const Error& error) {
+        fail("{}: {}{}", names, error.what(),
+             text.starts_with('=') ? "; a short option takes its value without =" : "");
+      }
     return true;
   };
   app_->add_option(names, std::move(take), wrapped(help))
@@ -217,8 +231,19 @@ std::string Tool::parse(int argc, const char* const* argv) {
     fail("no such option or operand: {} (see --help)",
          shown(without_mark(app_->remaining().front())));
   } catch (const CLI::ParseError& error) {
-    fail("{} (see --help)", error.what());
+    fail("{} (see --help)", in_our_words(error.what()));
   }
+}
+
+std::string Tool::fixed_values() const {
+  std::string values;
+  for (const std::string name : {"--fix", "--slope"}) {
+    const CLI::Option* const option = app_->get_option_no_throw(name);
+    if (!option || in_scene_.contains(name.substr(2))) continue;
+    for (const std::string& value : option->results())
+      if (value != "fit") add_item(values, fmt::format("{} {}", name, shown(value)));
+  }
+  return values;
 }
 
 bool Tool::take_scene() {
@@ -241,14 +266,26 @@ bool Tool::has(const std::string& option) const {
   return app_->get_option_no_throw("--" + option) != nullptr;
 }
 
+void Tool::refuse_misplaced(const std::string& file) const {
+  const auto equals = file.find('=');
+  if (equals == std::string::npos || equals == 0 || ::access(file.c_str(), F_OK) == 0) return;
+  const std::string name = (equals == 1 ? "-" : "--") + file.substr(0, equals);
+  if (app_->get_option_no_throw(name))
+    fail<OptionError>("'{}' is no file; write {} {}", shown(file), name,
+                      shown(file.substr(equals + 1)));
+}
+
 bool Tool::given(const std::string& option) const {
   return app_->get_option("--" + option)->count() > 0;
 }
 
 void Tool::need(const std::vector<std::string>& options) const {
+  const std::map<std::string, std::string> hints{
+      {"radius", " (-R, in metres)"}, {"shape-factor", " (-K, 0.5 for a solid cylinder)"}};
   std::vector<std::string> missing;
   for (const std::string& option : options)
-    if (!given(option)) missing.push_back("--" + option);
+    if (!given(option))
+      missing.push_back("--" + option + (hints.contains(option) ? hints.at(option) : ""));
   if (!missing.empty()) fail<OptionError>("neither given nor in a scene: {}", enumeration(missing));
 }
 

@@ -124,8 +124,9 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     if (const Interval* profile = not_visited(j))
       known = known && (std::isfinite(profile->lower) || std::isfinite(profile->upper));
     if (!known)
-      fail("the data do not determine {}, which comes out as {}: {}{}", form.coefficients[j].name,
-           shown(c), choose_the_roll, options.fits_power() ? "; or fix it, --fix b=0" : "");
+      fail<MotionError>("the data do not determine {}, which comes out as {}: {}{}",
+                        form.coefficients[j].name, shown(c), choose_the_roll,
+                        options.fits_power() ? "; or fix it, --fix b=0" : "");
   }
 }
 

@@ -39,7 +39,8 @@ Fitted fit_of_law(const Fitted& power, const LawForm& law) {
   std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
   if (found.parameters().scene() > 0) scene += ": add runs in the other direction";
   else scene = "";
-  if (!was_found(found)) fail("the rows do not determine D = {}{}", law.formula, scene);
+  if (!was_found(found))
+    fail<MotionError>("the rows do not determine D = {}{}", law.formula, scene);
   return found;
 }
 

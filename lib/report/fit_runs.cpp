@@ -45,8 +45,10 @@ void warn_of_lost_history(Tool& tool, const std::vector<Run>& runs) {
 Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
                 std::size_t n) {
   if (values.size() > 1 && values.size() != n)
-    fail("--{} gives {} values for {}: give one for all, or one for each, with decimal points",
-         option, values.size(), counted(n, "run"));
+    fail(
+        "--{} gives {} values for {}: give one for all, or one for each in the order of the runs, "
+        "with decimal points",
+        option, values.size(), counted(n, "run"));
   if (values.empty()) return {not_given};
   return values[values.size() > 1 ? i : 0];
 }

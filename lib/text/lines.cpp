@@ -191,7 +191,22 @@ void Lines::join_quoted() {
   text_ = joined_;
 }
 
+/// The kind of a file by its beginning, if it is none of columns; empty for any other.
+std::string_view other_kind(std::string_view first_line) {
+  const std::string_view text = trim(first_line);
+  if (text.starts_with("%PDF")) return "a PDF";
+  if (text.starts_with("<!") || text.starts_with("<?") || lower(text).starts_with("<html"))
+    return "HTML or XML";
+  const std::string_view inside = trim(text.substr(std::min<std::size_t>(text.size(), 1)));
+  const bool opens = inside.empty() || std::string_view("{[\"").find(inside.front()) < 3;
+  if (text.starts_with('{') || (text.starts_with('[') && opens)) return "JSON";
+  return {};
+}
+
 void Lines::check_bytes() const {
+  if (const std::string_view kind = number_ == 1 && !separators_.empty() ? other_kind(text_) : "";
+      !kind.empty())
+    fail<InputError>("{}:1: this is {} ({}): export its table as CSV", name(), kind, shown(text_));
   const char* const wrong =
       text_.find('\0') < text_.size()
           ? "a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what is "

@@ -173,11 +173,19 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
   return found;
 }
 
+/// A name with its unit, as a message can show it: one of another script is a number.
+std::string NeededColumns::shown_name(std::size_t column) const {
+  const auto is_readable = [](char c) { return c > ' ' && c <= '~' && c != '_'; };
+  if (std::ranges::none_of(as_read_[column].name, is_readable))
+    return fmt::format("column {}", column + 1);
+  return shown(to_text(as_read_[column]));
+}
+
 std::string NeededColumns::list() const {
   if (!named_) return counted(as_read_.size(), "column") + " without names";
   std::string list;
-  for (const Column& column : as_read_) {
-    add_item(list, shown(to_text(column)));
+  for (std::size_t i = 0; i < as_read_.size(); ++i) {
+    add_item(list, shown_name(i));
     if (list.size() > 200) return list + ", ...";
   }
   return list;
@@ -185,6 +193,12 @@ std::string NeededColumns::list() const {
 
 /// Says why there is no such column.
 void NeededColumns::refuse(std::string_view name) const {
+  const bool is_time = named_ && quantities_.front() == "t";
+  if (as_read_.size() == 1 && !is_time && (name == "t" || name == "v" || name == "x"))
+    fail<InputError>(
+        "{}: one column alone, where t is needed beside x or v: if its rows are at equal times, "
+        "awk '{{ print NR * 0.04, $1 }}' adds t{}",
+        place_, named_ ? "" : "; if this line is a heading, begin it with #");
   for (std::size_t i = 0; i < as_read_.size(); ++i)
     if (as_read_[i].name == name)
       fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, i + 1,
@@ -226,7 +240,8 @@ void NeededColumns::resolve(Needed& needed) {
 /// Notes what is assumed of a column that serves as `quantity`, once for all runs.
 void NeededColumns::assume(std::size_t at, std::string_view quantity, std::string_view what) {
   std::string line = fmt::format("{} is column {}", quantity, at + 1);
-  if (named_) line += fmt::format(", '{}'", shown(as_read_[at].name));
+  if (named_ && !shown_name(at).starts_with("column "))
+    line += fmt::format(", '{}'", shown(as_read_[at].name));
   line += what;
   if (assumed_.find(line) == std::string::npos) add_item(assumed_, line, "; ");
 }
@@ -259,14 +274,34 @@ Conversion NeededColumns::conversion(Needed& needed) {
   if (meant.unit.empty() || meant.unit == si) return {};
   if (const auto found = read_unit(meant.unit); found && si_unit(found->quantity) == si)
     return found->to_si;
+  refuse_unit(needed, meant);
+}
+
+/// Refuses a column for its unit: one of another quantity, or one that is not known.
+void NeededColumns::refuse_unit(const Needed& needed, const Column& meant) const {
+  const bool as_is = needed.kind == Kind::as_is;
+  const KnownQuantity* const known = as_is ? nullptr : known_quantity(needed.quantity);
+  const std::string name = shown(to_text(meant));
+  const std::string_view measured = measured_by(meant.unit);
+  if (known && measured == "an angle" && known->si == "m")
+    fail<InputError>(
+        "{}: column '{}' is an angle, and {} needs a length: multiply it by R first "
+        "(rolling-recipes(7))",
+        place_, name, needed.quantity);
+  if (known && !measured.empty())
+    fail<InputError>(
+        "{}: column '{}' is {}, and {} needs {}{}", place_, name, measured, needed.quantity,
+        known->in_words,
+        has_use_ ? fmt::format(": say which column it is, --use {}=COLUMN", needed.quantity) : "");
+  const std::string_view units = known                 ? known->units
+                                 : needed.unit.empty() ? "none"
+                                                       : std::string_view(needed.unit);
   fail<InputError>(
       "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",
-      place_, shown(to_text(meant)), needed.name, shown(meant.unit),
-      known        ? known->units
-      : si.empty() ? "none"
-                   : si,
-      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", quantity, needed.column + 1) : "");
+      place_, name, as_is ? needed.name : needed.quantity, shown(meant.unit), units,
+      has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", needed.quantity, needed.column + 1)
+               : "");
 }
 
 void NeededColumns::name_columns() {

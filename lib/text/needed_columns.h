@@ -77,6 +77,8 @@ class NeededColumns {
   void serve_by_units();
   void refuse_other_times(std::size_t column) const;
   std::string list() const;
+  std::string shown_name(std::size_t column) const;
+  [[noreturn]] void refuse_unit(const Needed&, const Column& meant) const;
   void resolve(Needed&);
   void assume(std::size_t column, std::string_view quantity, std::string_view what);
   Conversion conversion(Needed&);

@@ -92,9 +92,11 @@ std::string shown(std::string_view text) {
   return out;
 }
 
-bool parse_estimate(std::string_view text, Estimate& estimate) {
+bool parse_estimate(std::string_view as_typed, Estimate& estimate) {
+  const std::string text =
+      replace_all(as_typed, {{"\xC2\xB1", "+-"}, {"\xB1", "+-"}, {"+/-", "+-"}});
   const auto sign = std::min(text.find("+-"), text.size());
-  const std::string_view sigma = sign < text.size() ? text.substr(sign + 2) : "0";
+  const std::string sigma = sign < text.size() ? text.substr(sign + 2) : "0";
   Estimate read;
   // Blanks are allowed around +-, but not around the whole.
   if (trim(text) != text || !parse_number(trim(text.substr(0, sign)), read.value) ||

@@ -65,8 +65,9 @@ inline std::string_view trim(std::string_view field) {
 }
 
 /// Reads the whole of `text`: a number, or a number, `+-` and the standard uncertainty, which has
-/// no sign. Blanks may stand around `+-`. Both numbers have the syntax of number.h. Returns false
-/// for any other text and then leaves `estimate` unchanged.
+/// no sign. `+/-` and the sign of one character are read as well, and blanks may stand around. Both
+/// numbers have the syntax of number.h. Returns false for any other text and then leaves `estimate`
+/// unchanged.
 bool parse_estimate(std::string_view text, Estimate& estimate);
 
 /// The shortest text that reads back to the same numbers: `0.5+-0.005`, or `0.5` if sigma is 0.

@@ -49,11 +49,11 @@ constexpr Prefix prefixes[] = {{"k", "kilo", {1e3, 1}},  {"d", "deci", {1, 1e1}}
 
 constexpr std::string_view lengths = "m, mm, cm, dm, um, km, in, ft";
 constexpr KnownQuantity quantities[] = {
-    {"t", "s", "s, sec, ms, us, ns, min, h"},
-    {"x", "m", lengths},
-    {"v", "m/s", "m/s, mm/s, cm/s, km/h, mph, ft/s"},
-    {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2", "differentiate"},
-    {"D", "m", lengths, "shift-from-accel"},
+    {"t", "s", "s, sec, ms, us, ns, min, h", "a time"},
+    {"x", "m", lengths, "a length"},
+    {"v", "m/s", "m/s, mm/s, cm/s, km/h, mph, ft/s", "a speed"},
+    {"a", "m/s^2", "m/s^2, m/s/s, mm/s^2, cm/s^2", "an acceleration", "differentiate"},
+    {"D", "m", lengths, "a length", "shift-from-accel"},
 };
 
 std::optional<Unit> spelled(std::string_view word) {
@@ -151,6 +151,16 @@ std::optional<Conversion> unit_of(std::string_view quantity, std::string_view un
   const auto found = read_unit(unit);
   if (!found || found->quantity != (quantity == "D" ? "x" : quantity)) return {};
   return found->to_si;
+}
+
+std::string_view measured_by(std::string_view unit) {
+  constexpr std::string_view angles[] = {"rad",    "deg",     "degree", "degrees",
+                                         "radian", "radians", "rev",    "\xC2\xB0"};
+  if (std::ranges::count(angles, lower(unit)) > 0) return "an angle";
+  const auto found = read_unit(unit);
+  if (!found) return {};
+  const KnownQuantity* const quantity = known_quantity(found->quantity);
+  return quantity ? quantity->in_words : "a ratio";
 }
 
 bool is_unit(std::string_view text) { return read_unit(bare_unit(text)).has_value(); }

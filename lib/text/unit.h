@@ -35,6 +35,7 @@ std::string bare_unit(std::string_view text);
 /// A known quantity: t, x, v, a or D.
 struct KnownQuantity {
   std::string_view name, si, units;   ///< its units by common spellings, as a message shows them
+  std::string_view in_words;          ///< `a length`
   std::string_view appended_by = {};  ///< the tool that computes it
 };
 /// Null for any other name.
@@ -51,6 +52,9 @@ std::optional<Unit> read_unit(std::string_view text);
 /// The conversion of a unit to the SI unit of a known quantity; nothing if it is not one of this
 /// quantity.
 std::optional<Conversion> unit_of(std::string_view quantity, std::string_view unit);
+
+/// What a unit measures, in words: `a length`; empty for one that is not known. Angles are known.
+std::string_view measured_by(std::string_view unit);
 
 /// Whether a text is a unit, perhaps in brackets, in which t, x, v, a or D can be read.
 bool is_unit(std::string_view text);

@@ -86,7 +86,7 @@ a second header	is not a number	t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\nt v a D\n
 fewer names than fields	-:2: 4 fields under a line of 3 names	t,v,a\n7,.5,-.1,1e-3\n1,.4,-.1,1e-3\n
 lines that end in CR	-:1: a carriage return	0 .5 -.1 1e-3 1\r1 .4 -.1 1e-3 1\r77 .7 -.7 7 1\r
 names and lines that end in CR	-:1: a carriage return	t,v,a,D\r0,.5,-.1,1e-3\r1,.4,-.1,1e-3\r77,.7,.7,7\r
-an HTML page	-:5: 3 fields under a line of 2 names	<!DOCTYPE html>\n<html>\n<body>\n<table border=7><tr><td>7</td></tr></table>\n<p>About 77 pages</p>\n</body></html>\n
+an HTML page	-:1: this is HTML or XML	<!DOCTYPE html>\n<html>\n<body>\n<table border=7><tr><td>7</td></tr></table>\n<p>About 77 pages</p>\n</body></html>\n
 a packed file, such as a workbook of a spreadsheet	-:1: a NUL byte: this is no text of columns; export a spreadsheet as CSV	PK\003\004\024\0\010\0a\n0 1\n
 a NUL in a field	-:2: a NUL byte	0 .5 -.1 1e-3 1\n77 .7\0 -.7 7 1\n
 a NUL in a comment	-:2: a NUL byte	0 .5 -.1 1e-3 1\n# a\0\n77 .7 -.7 7 1\n

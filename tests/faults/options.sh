@@ -77,10 +77,10 @@ smooth -M savgol -w 3 --order 3 @|order
 smooth -M savgol --order 0 @|'0' must be a whole number from 1 to 1e9
 smooth -M savgol -w 75 --order 11 @|a polynomial of order 11: at most 10
 smooth --seconds 0,5 @|'0,5' is not a number (decimal point, no unit)
-smooth -w 3 -w 5 @|--width: At Most 1 required but received 2
-smooth -q @ -q|--quiet: At Most 1 required but received 2
-smooth @ -w|--width: 1 required N missing
-smooth --quiet=yes @|quiet was given a disallowed flag override
+smooth -w 3 -w 5 @|--width is given twice
+smooth -q @ -q|--quiet is given twice
+smooth @ -w|--width needs a value
+smooth --quiet=yes @|--quiet takes no value
 smooth -M nothing @|'nothing' is not one of
 smooth -c w @|there is no column 'w' among
 smooth -c 5 @|there is no column '5' among

@@ -39,11 +39,13 @@ TEST_CASE("options: what is given about a body, on the command line and in a sce
   CHECK(body.g == 9.81);
   CHECK(body.slope == 0);
   CHECK(given({"-R", "0.04"}, {"radius"}) == "0 ");
-  CHECK(given({}, {"radius"}) == "2 tool: neither given nor in a scene: --radius\n");
+  CHECK(given({}, {"radius"}) ==
+        "2 tool: neither given nor in a scene: --radius (-R, in metres)\n");
   CHECK(given({"-K", "1"}, {"mass", "radius", "shape-factor"}) ==
-        "2 tool: neither given nor in a scene: --mass and --radius\n");
+        "2 tool: neither given nor in a scene: --mass and --radius (-R, in metres)\n");
   CHECK(given({}, {"mass", "radius", "shape-factor"}) ==
-        "2 tool: neither given nor in a scene: --mass, --radius and --shape-factor\n");
+        "2 tool: neither given nor in a scene: --mass, --radius (-R, in metres) and "
+        "--shape-factor (-K, 0.5 for a solid cylinder)\n");
 
   const TemporaryFile scene(
       "shape-factor = \"0.50 +- 0.005\"\nradius = 0.04\nslope = '1e-3+-1e-4'\n");

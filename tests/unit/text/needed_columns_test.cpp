@@ -156,9 +156,12 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {}, "FILE");
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: there is no column 'v' among 1 column without names; if this line is a heading, "
-        "begin it with "
-        "#, or say --use v=COLUMN");
+        "FILE: one column alone, where t is needed beside x or v: if its rows are at equal times, "
+        "awk '{ print NR * 0.04, $1 }' adds t; if this line is a heading, begin it with #");
+  needed.begin_run(columns({"t", "c2"}), false, {}, "FILE");
+  CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
+        "FILE: there is no column 'v' among 2 columns without names; if this line is a heading, "
+        "begin it with #, or say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
   CHECK(needed.all()[0].column == NeededColumns::no_column);
 }

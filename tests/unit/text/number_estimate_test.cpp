@@ -29,6 +29,12 @@ TEST_CASE("estimate: a number, alone or with its standard uncertainty", "[text]"
   CHECK(reread("-1e-3\t+-2E-4") == "-0.001+-0.0002");
   CHECK(reread("9.81+-0") == "9.81");
   CHECK(reread("+5+-+1") == "5+-1");
+  for (const char* sign : {"\xC2\xB1", "\xB1", "+/-", " +/- "})  // in UTF-8 and Latin-1
+    CHECK(reread("0.5" + std::string(sign) + "0.005") == "0.5+-0.005");
+  for (const char* text : {"0.5\xC2\xB1\xC2\xB1"
+                           "0.1",
+                           "0.5+/-", "0.5\xC2", "0.5+/-+-0.1"})
+    CHECK(reread(text) == "refused");
 }
 
 TEST_CASE("estimate: anything else is refused whole", "[text]") {
