@@ -103,10 +103,11 @@ table1: all
 # The raw runs: simulated, so that the answer is known; see samples/README.md.
 sensor := --memory 5e-4 --damping 0.02 --sensor pasco
 samples: bin/simulate
-	bin/simulate --scene samples/CF.toml $(sensor) --seed 1 >samples/CF.csv
-	bin/simulate --scene samples/CR.toml $(sensor) --seed 2 >samples/CR.csv
-	bin/simulate --scene samples/SF.toml $(sensor) --seed 3 >samples/SF.csv
-	bin/simulate --scene samples/SR.toml $(sensor) --seed 4 >samples/SR.csv
+	set -e; seed=0; for scene in CF CR SF SR; do \
+	  seed=$$((seed + 1)); file=samples/$$scene.csv; \
+	  bin/simulate --scene samples/$$scene.toml $(sensor) --seed $$seed >$$file.new; \
+	  mv $$file.new $$file; \
+	done
 	samples/exports/make.sh samples/exports
 
 # Figures of the paper: each is drawn by the script of its name in samples/figures.
@@ -119,7 +120,7 @@ define draw
 	@command -v gnuplot >/dev/null || \
 	  { echo 'gnuplot is not installed; make setup figures installs it' >&2; exit 1; }
 	@mkdir -p $(@D)
-	$< -t $1 >$@
+	$< -t $1 >$@.new && mv $@.new $@
 endef
 figures/%.svg: samples/figures/%.sh $(drawn_from)
 	$(call draw,svg)
@@ -133,7 +134,8 @@ figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.sv
                      $(wildcard build/work-precision/*.svg) \
                      $(if $(shell command -v mandoc),figures/man/index.html) | all
 	PATH="$$PWD/bin:$$PATH" $< figures \
-	  $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@
+	  $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && \
+	  mv $@.new $@
 
 # The manual pages as one site of HTML.
 html: figures/man/index.html

@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need("t");
-    const auto y = in.need(!column.empty() ? column : in.find("v") || !in.find("x") ? "v" : "x");
+    if (column.empty()) column = in.find("v") || !in.find("x") ? "v" : "x";
+    const auto y = in.need(column);
     const Column& from = in.columns()[in.column_of(y)];
     Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
     filter.append(derivative_of(from));

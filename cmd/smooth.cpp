@@ -18,7 +18,8 @@ using namespace rolling;
 /// the first column that is not t.
 std::string default_column(const Reader& in, std::size_t t, bool selects) {
   if (selects && in.find("x")) return "x";
-  return in.find("v") || in.columns().size() == 1 ? "v" : in.column_of(t) == 0 ? "2" : "1";
+  if (in.find("v") || in.columns().size() == 1) return "v";
+  return in.column_of(t) == 0 ? "2" : "1";
 }
 
 /// A roll is one of positions or speeds.

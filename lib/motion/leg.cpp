@@ -51,7 +51,8 @@ double increasing_root(double lo, double hi, double x, Function&& function) {
 /// The integral of e^(-m r) from 0 to r, where it ends at the value e.
 double integral_of_power(double m, double r, double e) {
   const double y = m * r;
-  return std::abs(y) > 0.5 ? (1 - e) / m : y == 0 ? r : -std::expm1(-y) / m;
+  if (std::abs(y) > 0.5) return (1 - e) / m;
+  return y == 0 ? r : -std::expm1(-y) / m;
 }
 
 /// The integral of r e^(-m r) from 0 to r.

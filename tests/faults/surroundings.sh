@@ -3,6 +3,7 @@
 # The same rows whatever the surroundings: how the input arrives, the locale, the environment, the
 # folder, the limits. And refusals where there is no input to be had.
 . "$(dirname "$0")/tools"
+exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-  # those that the caller has left open
 good 400 >"$scratch/good"
 top=$PWD
 localedef -i de_DE -f UTF-8 "$scratch/de_DE.UTF-8" 2>/dev/null || :  # where the sources of locales are installed
