@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // differentiate - append the time derivative of a column; see differentiate(1)
+#include <string_view>
+
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "signal/method.h"
@@ -24,8 +26,8 @@ int main(int argc, char** argv) {
     make_signal(options);  // refuses wrong options before anything is read
     Reader& in = tool.read({"t", "v"});
     const auto t = in.need("t");
-    if (column.empty()) column = in.find("v") || !in.find("x") ? "v" : "x";
-    const auto y = in.need(column);
+    const std::string_view first = in.find("v") || !in.find("x") ? "v" : "x";
+    const auto y = in.need(column.empty() ? first : column);
     const Column& from = in.columns()[in.column_of(y)];
     Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
     filter.append(derivative_of(from));
