@@ -261,9 +261,11 @@ int main(int argc, char** argv) {
     tool.need({"mass"});
     // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
     for (const UncertainNumber& number : uncertain_numbers) body.*number.sigma = 0;
-    // A law on the command line takes precedence over a column D, the law of a scene does not.
+    if (!task.height.empty())
+      tool.refuse({"slope"}, "does not go with --height, which has the slope");
     task.road = read_road(tool, task.height);
     body.road = task.road.get();
+    // A law on the command line takes precedence over a column D, the law of a scene does not.
     task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
                     tool.on_command_line("exponent");
     const bool with_errors = is_chosen("sigma_D");

@@ -55,6 +55,14 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
     options.fit_wind = text == "fit";
     if (!options.fit_wind) bodies.winds = to_numbers(text, any_number);
   });
+  tool.add("--x0", "X,...",
+           "where speeds begin on the road [m]; one, or one for each run: 0,2400 (the column x)",
+           [&](const std::string& text) {
+    for (const std::string& x : split_names(text, ','))
+      bodies.begins.push_back({to_number(x, any_number)});
+  });
+  tool.choice("--steepness", options.fit_steepness, {{"fit", true}},
+              "find a factor of the height, one for all runs");
   tool.geometry(options.geometry);
   tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
   tool.flag("--robust", options.robust,
@@ -74,6 +82,16 @@ void doubt_wind(Tool& tool, const FitOptions& options, std::size_t runs) {
     tool.warn(
         "one wind is fitted for all runs: where it was not the same, the law is off, and the "
         "residuals do not show it");
+}
+
+/// Gives the bodies their road; refuses what needs one without it, and what does not go with one.
+void give_road(Tool& tool, Bodies& bodies, const Road* road, const FitOptions& options,
+               Route route) {
+  bodies.body.road = road;
+  if (!road) return tool.refuse({"x0", "steepness"}, "goes with --height");
+  if (!options.fit_slope) tool.refuse({"slope"}, "does not go with --height, which has the slope");
+  if (route != Route::velocity) tool.refuse({"x0"}, "is for runs of speeds: positions have it");
+  if (!is_trajectory(route)) tool.refuse({"height"}, "is for the routes velocity and position");
 }
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
@@ -204,6 +222,7 @@ int main(int argc, char** argv) {
   FitOptions options;
   bool each = false;
   bool with_report = false;
+  std::string height;
   tool.choice<std::optional<Route>>(
       "--route", given_route, routes(),
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
@@ -213,6 +232,7 @@ int main(int argc, char** argv) {
   tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
   tool.body(bodies.body, {&Body::g});
   add_options(tool, options, bodies);
+  add_height(tool, height);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
             "tell on standard error how the uncertainties were made, and the fits of other laws");
@@ -225,7 +245,8 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (tool.on_command_line("route") && !given_route) {
-      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "wind"},
+      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "wind",
+                   "height", "x0", "steepness"},
                   "is for the fits of the runs: --route fits reads their rows");
       fit_rows(tool, bodies);
       return 0;
@@ -240,7 +261,10 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
-    auto runs = read_runs(tool, in, route);
+    const auto road = read_road(tool, height);
+    give_road(tool, bodies, road.get(), options, route);
+    auto runs =
+        read_runs(tool, in, route, road && route == Route::velocity && bodies.begins.empty());
     doubt_wind(tool, options, each ? 1 : runs.size());
     refuse_slow(runs, options);
     if (!each) warn_of_copies(tool, route, runs);

@@ -120,6 +120,7 @@ struct Task {
     roll.law = law_of_file.law;
     roll.body = law_of_file.contact.body;
     roll.geometry = law_of_file.contact.geometry;
+    if (!height.empty()) tool.refuse({"slope"}, "does not go with --height, which has the slope");
     road = read_road(tool, height);
     roll.body.road = road.get();
     const auto take = [&](const char* option, double of_row, double& value) {

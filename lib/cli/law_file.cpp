@@ -79,6 +79,7 @@ struct RollNumber {
 };
 constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
                                        {"wind", "m/s", &LawOfFile::wind},
+                                       {"steepness", "", &LawOfFile::steepness},
                                        {"v0", "m/s", &LawOfFile::v0},
                                        {"x0", "m", &LawOfFile::x0},
                                        {"t0", "s", &LawOfFile::t0}};
@@ -145,6 +146,7 @@ std::vector<LawOfFile> read_rows_of_run(Tool& tool, Reader& in, const RowReader&
     if (!std::isnan(row.slope) && !tool.on_command_line("slope"))
       row.contact.body.slope = row.slope;
     if (!std::isnan(row.wind) && !tool.on_command_line("wind")) row.contact.body.wind = row.wind;
+    if (!std::isnan(row.steepness)) row.contact.body.steepness = row.steepness;
   }
   return rows;
 }
@@ -262,7 +264,6 @@ void add_height(Tool& tool, std::string& file) {
 
 std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file) {
   if (file.empty()) return {};
-  tool.refuse({"slope"}, "does not go with --height, which has the slope");
   Reader& in = tool.read_file(file, {"x", "h"});
   const auto x = in.need("x");
   const auto h = in.need_as_is("h", "m");

@@ -44,7 +44,7 @@ void add_options(Tool&, LawOptions&);
 void add_wind(Tool&, Body&);
 void check_wind(const Body&, const Law&);
 
-/// --height, and the road of its table, x and h; refuses --slope beside it.
+/// --height, and the road of its table, x and h; none without a file.
 void add_height(Tool&, std::string& file);
 std::unique_ptr<const Road> read_road(Tool&, const std::string& file);
 
@@ -58,6 +58,7 @@ struct LawOfFile {
   /// What the row has of its roll; else NaN.
   double slope = not_given;
   double wind = not_given;
+  double steepness = not_given;
   double v0 = not_given;
   double x0 = not_given;
   double t0 = not_given;

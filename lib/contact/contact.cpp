@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "base/error.h"
 #include "contact/road.h"
@@ -13,10 +12,7 @@ namespace rolling {
 
 Incline incline(const Body& c, double x, double v) {
   if (!c.road) return incline(c);
-  const std::vector<double>& points = c.road->points();
-  if (!(x >= points.front() && x <= points.back()))
-    fail("x = {:.6g} m is outside of the table of heights, {} to {}", x, points.front(),
-         points.back());
+  c.road->check(x);
   const Road::Place place = c.road->at(x);
   const double sin = c.steepness * place.h1 + c.slope;
   const double cos = std::sqrt(1 - sin * sin);

@@ -52,12 +52,20 @@ Road::Place Road::at(double x) const {
           first + s * (bend_[i] + s * third / 2), bend_[i] + s * third, third};
 }
 
+void Road::check(double x) const {
+  if (!(x >= x_.front() && x <= x_.back()))
+    fail("x = {:.6g} m is outside of the table of heights, {} to {}", way_ * x,
+         way_ * (way_ > 0 ? x_.front() : x_.back()), way_ * (way_ > 0 ? x_.back() : x_.front()));
+}
+
 const Road* Road::mirrored() const {
   if (mirrored_) return mirrored_.get();
   std::vector<double> x(x_.rbegin(), x_.rend());
   for (double& place : x) place = -place;
   const std::vector<double> h(h_.rbegin(), h_.rend());
-  mirrored_ = std::make_unique<const Road>(std::move(x), h);
+  auto road = std::make_unique<Road>(std::move(x), h);
+  road->way_ = -way_;
+  mirrored_ = std::move(road);
   return mirrored_.get();
 }
 

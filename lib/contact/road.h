@@ -24,10 +24,14 @@ class Road {
   const std::vector<double>& points() const { return x_; }  ///< increasing
   /// The road as a body sees it that rolls towards falling x: h(-x).
   const Road* mirrored() const;
+  double way() const { return way_; }  ///< -1 if it is mirrored
+  /// Throws Error, with the x of the table, for a place outside of it.
+  void check(double x) const;
 
  private:
   std::vector<double> x_, h_;
   std::vector<double> bend_;                      // the second derivatives at the points
+  double way_ = 1;                                // -1 if mirrored
   mutable std::unique_ptr<const Road> mirrored_;  // if it has been asked for
 };
 

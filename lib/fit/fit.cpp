@@ -79,8 +79,8 @@ bool both_ways(const Fitted& found) {
   const auto& runs = found.model.runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     Roll roll = found.model.roll(found.minimum.theta, r);
-    if (runs[r].way != runs[0].way || (roll.turns() && roll.at(runs[r].t.back()).v < 0))
-      return true;
+    const double last = runs[r].t.back();
+    if (runs[r].way != runs[0].way || (roll.stop_until(last) < last && roll.turns())) return true;
   }
   return false;
 }
@@ -148,8 +148,8 @@ void require_roll(const Fitted& found) {
       fail("{}the body does not slow down: D comes out as {:.2g} m", run.place, D);
     double fastest = 0;
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
-      fastest = std::max(
-          fastest, (roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) / (run.t[i + 1] - run.t[i]));
+      fastest = std::max(fastest, std::abs(roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) /
+                                      (run.t[i + 1] - run.t[i]));
     if (v0 > levels::v0_over_speeds * fastest)
       fail(
           "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "

@@ -37,6 +37,7 @@ struct Run {
   const std::vector<double>& operator[](Quantity q) const { return this->*columns[q]; }
   static const PerQuantity<std::vector<double> Run::*> columns;
 
+  double x0 = 0;        ///< where speeds begin on the road of the body
   Body body;            ///< the body and its mat: K, R, g and slope (trajectory routes only); runs
                         ///< that give the same number with the same uncertainty share its error
   FilterChain filters;  ///< the filters that made the fitted columns of x alone or of v alone, in
@@ -65,9 +66,10 @@ struct FitOptions {
   bool fits_power() const { return law == &laws().front(); }
   Geometry geometry = Geometry::approximate;
   std::optional<double> a, b, v0, x0;  ///< parameters that are fixed
-  bool fit_slope = false;  ///< the slope of the mat is a further parameter, common to all runs
-  bool fit_wind = false;   ///< so is the wind, of a law with the drag of the air
-  double min_speed = 0;    ///< rows slower than this are not fitted [m/s]
+  bool fit_slope = false;      ///< the slope of the mat is a further parameter, common to all runs
+  bool fit_wind = false;       ///< so is the wind, of a law with the drag of the air
+  bool fit_steepness = false;  ///< so is the factor of the height of a road
+  double min_speed = 0;        ///< rows slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
   /// more rows, no known filter): differences of x, and for comparison means of v.
   std::vector<LinearFilter> possible_filters;
@@ -82,9 +84,10 @@ struct SceneNumber {
   bool FitOptions::*is_fitted;
   double unit;  ///< of its element of theta
 };
-inline constexpr std::size_t place_of_wind = 1;  ///< its place among them, the last
-inline constexpr std::array<SceneNumber, 2> scene_numbers{
+inline constexpr std::size_t place_of_wind = 2;  ///< its place among them, the last
+inline constexpr std::array<SceneNumber, 3> scene_numbers{
     {{"slope", "", &Body::slope, &FitOptions::fit_slope, 1e-3},
+     {"steepness", "", &Body::steepness, &FitOptions::fit_steepness, 1},
      {"wind", "m/s", &Body::wind, &FitOptions::fit_wind, 1}}};
 
 /// The body of a run on this route, with the uncertainties of its numbers, and the geometry.

@@ -4,6 +4,7 @@
 #include "base/chebyshev.h"
 #include "base/error.h"
 #include "base/median.h"
+#include "contact/road.h"
 
 #include <algorithm>
 #include <array>
@@ -130,7 +131,8 @@ std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
 }
 
 std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v0,
-                                      const std::vector<double>& x0, double slope) const {
+                                      const std::vector<double>& x0, double slope,
+                                      double steepness) const {
   std::vector<double> all;
   for (std::size_t r = 0; r < runs_; ++r) {
     if (!v0_) all.push_back(v0[r] / v_ref_);
@@ -139,6 +141,7 @@ std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v
   if (!fixed_[0]) all.push_back(std::log(law(v_unit_)));
   if (!fixed_[1]) all.push_back(law.b);
   if (fits(0)) all.push_back(slope / scene_numbers[0].unit);
+  if (fits(1)) all.push_back(steepness / scene_numbers[1].unit);
   return all;
 }
 
@@ -150,7 +153,8 @@ std::vector<double> Parameters::theta_of(const Parameters& other,
     v0s.push_back(other.v0(theta, r));
     x0s.push_back(other.x0(theta, r));
   }
-  return this->theta(*other.law(theta).power(), v0s, x0s, other.body(theta, {}).slope);
+  const Body body = other.body(theta, {});
+  return this->theta(*other.law(theta).power(), v0s, x0s, body.slope, body.steepness);
 }
 
 void Parameters::chain(double* to, std::size_t stride, double c0,
@@ -202,6 +206,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
     if (rows[r].empty()) fail("{}no row can be fitted", seen.place);
     const auto [body, geometry] = contact_of(route, run, options);
     seen.body = body;
+    seen.x0 = run.x0;
     seen.geometry = geometry;
     seen.origin = run.t.front();
     seen.y = taken(run[fitted_column(route)], rows[r]);
@@ -251,8 +256,12 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   body.wind *= runs()[run].way;
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
-  if (law.in_wind(body.wind).at(v0).D < 0) fail("the mat does not slow the body down");
-  return {body, runs()[run].geometry, law, v0};
+  if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
+  if (!body.road) return {body, runs()[run].geometry, law, v0};
+  const double way = runs()[run].way;
+  if (way < 0) body.road = body.road->mirrored();
+  const double x0 = parameters_.has_x0() ? parameters_.x0(theta, run) : runs()[run].x0;
+  return {body, runs()[run].geometry, law, v0, way * x0};
 }
 
 namespace {
@@ -267,20 +276,27 @@ RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x
                        roll = std::move(roll)](double t) mutable {
     Roll::Point p = roll.at(t);
     Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
-    const std::size_t slope = roll.law().size();  // then the wind; way^2 is 1
+    const std::size_t slope = roll.law().size();  // then wind and steepness; way^2 is 1
+    by_c[slope + 2] *= way;
     for (std::size_t j = 0; j < slope; ++j) by_c[j] *= way;
     std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v)};
-    // 1 is the derivative by x0; where speeds are fitted, x0 is 0 and no parameter.
+    // Where speeds are fitted, x0 is no parameter.
     q.chain(&values[0] + 1, 1, roll.law().c(0),
-            {by_c, way * (position ? p.x_v0 : p.v_v0), 1, {by_c[slope], by_c[slope + 1]}});
+            {by_c,
+             way * (position ? p.x_v0 : p.v_v0),
+             position ? p.x_x0 : p.v_x0,
+             {by_c[slope], by_c[slope + 2], by_c[slope + 1]}});
     return values;
   };
-  return [at = ChebyshevPanels(run.t, corners, direct)](double t, double* slopes,
-                                                        std::size_t stride) mutable {
-    const auto values = at(t);
-    for (std::size_t j = 0; j < columns; ++j) slopes[j * stride] = values[1 + j];
-    return values[0];
+  const auto written = [](auto at) {
+    return [at = std::move(at)](double t, double* slopes, std::size_t stride) mutable {
+      const auto values = at(t);
+      for (std::size_t j = 0; j < columns; ++j) slopes[j * stride] = values[1 + j];
+      return values[0];
+    };
   };
+  if (run.body.road) return written(direct);  // it is not smooth from point to point
+  return written(ChebyshevPanels(run.t, corners, direct));
 }
 
 /// `rolled` of 1, 2, 3, ... columns.

@@ -83,9 +83,10 @@ class Parameters {
   /// The parameters of a single run in a scene that is fixed.
   Parameters of_one_run() const;
   std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
-  /// The theta of a v^b with these v0 and x0 (one for each run), and this slope.
+  /// The theta of a v^b with these v0 and x0 (one for each run), and this scene.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
-                            const std::vector<double>& x0, double slope = 0) const;
+                            const std::vector<double>& x0, double slope = 0,
+                            double steepness = 1) const;
   /// The theta of the same roll as that of other parameters, in which others are fixed.
   std::vector<double> theta_of(const Parameters&, const std::vector<double>& theta) const;
 
@@ -143,6 +144,7 @@ struct ObservedRun {
   /// For shift: the accelerations of the shifts of these rows, and their filters.
   std::vector<double> accelerations = {};
   Filters H_of_accelerations = {};
+  double x0 = 0;  ///< where speeds begin on the road of the body
 };
 
 /// The response of each run, if the filters of all runs are known; otherwise empty.

@@ -2,6 +2,7 @@
 #include "fit/routes.h"
 
 #include "base/error.h"
+#include "contact/road.h"
 #include "base/median.h"
 #include "least_squares/minimise.h"
 #include "least_squares/triangles.h"
@@ -215,7 +216,80 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
   return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
 }
 
+namespace {
+
+/// Place and speed at an end of a run, by a parabola through its rows there. `x` are their places.
+struct EndOfRun {
+  double x, v;
+};
+EndOfRun end_of(const ObservedRun& run, const std::vector<double>& x, bool first) {
+  const std::size_t n = run.t.size();
+  const std::size_t rows = std::min<std::size_t>(n, 9);
+  const std::size_t from = first ? 0 : n - rows;
+  const double t0 = first ? run.t.front() : run.t.back();
+  Triangles R(1, std::min<std::size_t>(rows, 3), 0);
+  for (std::size_t i = from; i < from + rows; ++i) {
+    const double t = run.t[i] - t0;
+    double powers[]{1, t, t * t};
+    double f = -run.y[i];
+    R.add(0, {&f, 1}, std::span(powers).first(std::min<std::size_t>(rows, 3)));
+  }
+  const std::vector<double> c = R.solve();
+  if (run.column != Quantity::x) return {first ? x.front() : x.back(), c[0]};
+  return {c[0], c.size() > 1 ? c[1] : 0};
+}
+
+/// The same on a road: D by the energy that is lost between the ends of the runs.
+FirstGuess guess_on_road(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+  const bool position = runs.front().column == Quantity::x;
+  std::vector<double> v0;
+  std::vector<double> x0;
+  double lost = 0;
+  double all = 0;  // the way, in units of R
+  double time = 0;
+  for (const ObservedRun& run : runs) {
+    std::vector<double> x = run.y;
+    for (std::size_t i = 0; i < x.size() && !position; ++i)
+      x[i] = i == 0 ? run.x0 : x[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+    const EndOfRun begin = end_of(run, x, true);
+    const EndOfRun end = end_of(run, x, false);
+    v0.push_back(run.way * begin.v);
+    x0.push_back(begin.x);
+    const auto energy = [&](const EndOfRun& at) {
+      return (1 + run.body.K) / 2 * at.v * at.v / run.body.g + run.body.road->at(at.x).h;
+    };
+    lost += energy(begin) - energy(end);
+    for (std::size_t i = 1; i < x.size(); ++i) all += std::abs(x[i] - x[i - 1]) / run.body.R;
+    time += run.t.back();
+  }
+  const double v = all * runs.front().body.R / time;
+  if (!(v > 0)) fail("{}the body does not move: a and b cannot be determined", runs[0].place);
+  const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
+  const System system = system_of(Model(runs, q));
+  FirstGuess guess{q, {}};
+  Minimum best;
+  for (const double part : {1.0, 0.4, 2.5})
+    for (const double b : {0.03, 0.5}) {
+      const double D = part * std::max(lost / all, 1e-3 * runs.front().body.R);
+      const double held = options.b.value_or(b);
+      guess.starts.push_back(q.theta({options.a.value_or(D / std::pow(v, held)), held}, v0, x0));
+      Minimum here = tried(system, guess.starts.back());
+      if (here.rss < best.rss) best = std::move(here);
+    }
+  if (std::isfinite(best.rss)) improve(best, system, std::vector<double>(best.theta));
+  if (!std::isfinite(best.rss)) {
+    for (std::size_t r = 0; r < runs.size(); ++r)  // this says why
+      Model(runs, q).roll(guess.starts.front(), r).at(runs[r].t.back());
+    fail("no roll on this road comes near the readings");
+  }
+  guess.starts.insert(guess.starts.begin(), std::move(best.theta));
+  return guess;
+}
+
+}  // namespace
+
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+  if (runs.front().body.road) return guess_on_road(runs, options);
   std::vector<Thinned> thin;
   std::vector<ObservedRun> thin_runs;
   for (ObservedRun run : runs) {

@@ -26,10 +26,7 @@ enum { of_t, of_x, of_clock, first };
 RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
     : body_(body), geometry_(geometry), with_(law.in_wind(body.wind)),
       against_(law.in_wind(-body.wind)), x0_(x0), highest_(std::abs(v0)), count_(law.size() + 3) {
-  const std::vector<double>& points = body.road->points();
-  if (!(x0 >= points.front() && x0 <= points.back()))
-    fail("the roll begins at x = {}, outside of the table of heights, {} to {}", x0, points.front(),
-         points.back());
+  body.road->check(x0);
   end_.resize(first + 2 * (2 + count_));
   end_[of_x] = x0;
   heading_ = v0 < 0 ? -1 : 1;
@@ -132,20 +129,32 @@ Integrator RoadRoll::clock_of(bool of_place) {
   };
   OdeSystem system{by_place, nullptr, [](const double*) { return INFINITY; }};
   if (!of_place) system.derivative = by_speed;
+  system.derivative = [this, forward = std::move(system.derivative)](const double* y, double* dy) {
+    forward(y, dy);
+    for (std::size_t i = 0; i < end_.size(); ++i) dy[i] *= pace_;
+  };
   return {std::move(system), Stepper::rk8pd,
           Tolerance{0.1 * tolerance, 1e-30, tolerance, std::vector<double>(end_.size(), 1)}, end_};
 }
 
-/// The state after this much of the clock of a segment.
-std::vector<double> RoadRoll::along(const Segment& segment, double length) {
+/// The state after this much of the clock of a segment, back to the beginning if it is below 0.
+std::vector<double> RoadRoll::along(const Segment& segment, const std::vector<double>& from,
+                                    double length) {
+  if (length == 0) return from;
   way_ = segment.way;
   change_ = segment.change;
+  pace_ = length > 0 ? 1 : -1;
   std::optional<Integrator>& clock = change_ == 0 ? by_place_ : by_speed_;
   if (!clock) clock = clock_of(change_ == 0);
-  clock->restart(0, segment.begin);
+  clock->restart(0, from);
   unsigned long steps = 10'000;
-  clock->advance(
-      length, [](const std::vector<double>&) { return 1.0; }, steps);
+  try {
+    clock->advance(
+        std::abs(length), [](const std::vector<double>&) { return 1.0; }, steps);
+  } catch (const Error&) {  // its time is the clock
+    fail("the motion cannot be followed beyond t = {:.6g} s, x = {:.6g} m", from[of_t],
+         body_.road->way() * from[of_x]);
+  }
   return clock->state();
 }
 
@@ -183,7 +192,8 @@ RoadRoll::Segment RoadRoll::from_rest() const {
     double u = std::sqrt(length * r.a);
     while (!(rate(u, x, way).a > r.a / 2) && u > 0) u /= 2;
     if (!(u > 0))
-      fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t], x);
+      fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t],
+           body_.road->way() * x);
     Segment next{way, 1, std::pow(u, 0.25), end_};
     if (segments_.empty()) next.begin[first] = -way / r.a;  // by v0, at a fixed speed
     return next;
@@ -191,7 +201,8 @@ RoadRoll::Segment RoadRoll::from_rest() const {
   return {heading_, 1, 0, end_};
 }
 
-/// From a body that moves: to the next point, not beyond half of the energy; or to the turn.
+/// From a body that moves: to the next point, but not over more than half of its energy; or to the
+/// turn.
 RoadRoll::Segment RoadRoll::onwards() {
   Segment next{heading_, 0, room(end_[of_x], heading_), end_};
   const double E = end_[of_clock];
@@ -199,21 +210,26 @@ RoadRoll::Segment RoadRoll::onwards() {
   highest_ = std::max(highest_, u);
   const Rate r = rate(u, end_[of_x], heading_);
   if (!(r.N > 0))
-    fail("the body leaves the track at t = {:.6g} s, x = {:.6g} m", end_[of_t], end_[of_x]);
+    fail("the body leaves the track at t = {:.6g} s, x = {:.6g} m", end_[of_t],
+         body_.road->way() * end_[of_x]);
   if (next.length == 0)
     fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t],
-         end_[of_x]);
+         body_.road->way() * end_[of_x]);
   if (u <= at_rest * highest_) {
     next.length = 0;
     return next;
   }
+  // How fast dv/dt changes up to the next point, where h'' is linear.
+  const double there = end_[of_x] + heading_ * next.length;
+  const double bend = std::max(std::abs(r.a_x), std::abs(rate(u, there, heading_).a_x));
   const double slows = -std::max(r.a, rate(least_speed, end_[of_x], heading_).a);
-  if (slows > 0 && E < 2 * next.length * slows && std::abs(r.a_x) * E < alike * slows * slows) {
+  if (slows > 0 && E < 2 * next.length * slows && bend * E < alike * slows * slows) {
     next.change = -1;
     to_speed(next.begin, heading_);
     next.length = next.begin[of_clock];
-  } else if (E < -2 * next.length * r.a) {
-    next.length = std::min(next.length, E / (-2 * r.a));
+  } else {
+    const double a = std::max(0.0, -r.a);
+    next.length = std::min(next.length, E / (a + std::sqrt(a * a + bend * E)));
   }
   return next;
 }
@@ -223,7 +239,7 @@ void RoadRoll::add_segment() {
     fail("the body creeps: t = {:.6g} s is as far as it can be followed", end_[of_t]);
   Segment next = in_place_ ? onwards() : from_rest();
   heading_ = next.way;
-  if (!next.rests()) end_ = along(next, next.length);
+  if (!next.rests()) end_ = along(next, next.begin, next.length);
   in_place_ = next.change >= 0;
   if (next.change > 0) to_place(end_, next.way);
   if (next.change < 0) end_[of_clock] = 0;
@@ -278,11 +294,12 @@ RoadRoll::Point RoadRoll::landing(const Segment& segment, const std::vector<doub
   const double bend_1 = rise - slope(last, end[of_x]) * all;
   double q = from + rise * part + part * (1 - part) * (bend_0 * (1 - part) + bend_1 * part);
   std::vector<double> y = begin;
+  double there = 0;  // of the clock
   for (int i = 0; i < 8; ++i) {
     q = std::clamp(q, std::min(from, to), std::max(from, to));
-    double length = q;
-    if (!of_place) length = segment.change * (std::pow(q, 0.25) - begin[of_clock]);
-    y = length > 0 ? along(segment, std::min(length, segment.length)) : begin;
+    const double length = of_place ? q : segment.change * (std::pow(q, 0.25) - begin[of_clock]);
+    y = along(segment, y, length - there);
+    there = length;
     const double left = t - y[of_t];
     if (std::abs(left) <= 1e-10 * all) break;
     q += slope(speed(y[of_clock]), y[of_x]) * left;

@@ -62,7 +62,7 @@ class RoadRoll {
   bool holds(double x, double way) const;
   double room(double x, double way) const;
   Integrator clock_of(bool of_place);
-  std::vector<double> along(const Segment&, double length);
+  std::vector<double> along(const Segment&, const std::vector<double>& from, double length);
   void to_speed(std::vector<double>& y, double way) const;
   void to_place(std::vector<double>& y, double way) const;
   Segment from_rest() const;
@@ -78,10 +78,10 @@ class RoadRoll {
   double x0_, highest_;
   std::size_t count_;  // of the parameters, beside v0 and x0, which are the first
   std::vector<Segment> segments_;
-  std::vector<double> end_;      // of the last one
-  bool in_place_ = false;        // its clock is x; else w, which is 0
-  double heading_;               // the direction of the motion; at rest that of the last one
-  double way_ = 1, change_ = 0;  // of the piece that is being integrated
+  std::vector<double> end_;  // of the last one
+  bool in_place_ = false;    // its clock is x; else w, which is 0
+  double heading_;           // the direction of the motion; at rest that of the last one
+  double way_ = 1, change_ = 0, pace_ = 1;  // of the piece that is being integrated
   std::optional<Integrator> by_place_, by_speed_;
 };
 

@@ -50,8 +50,8 @@ void check_roll(const Body& body, const Law& law, double v0) {
 }
 
 Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
-    : Leg(checked(body, law, v0), geometry, law, v0), way_on_(v0 == 0 && holds(-1) ? 1 : -1),
-      turns_((v0 == 0 || slows()) && !holds(way_on_)) {
+    : Leg(checked(body, law, body.road ? std::abs(v0) : v0), geometry, law, body.road ? 0 : v0),
+      way_on_(v0 == 0 && holds(-1) ? 1 : -1), turns_((v0 == 0 || slows()) && !holds(way_on_)) {
   if (body.road) road_ = std::make_shared<RoadRoll>(body, geometry, law, v0, x0);
 }
 

@@ -42,7 +42,8 @@ class Roll : Leg {
   /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
   /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the
   /// exact geometry for D(v0) > R.
-  /// x0 is where the roll begins on a road, whose errors are those of RoadRoll.
+  /// x0 is where the roll begins on a road, whose errors are those of RoadRoll; there v0 may be
+  /// below 0.
   Roll(const Body&, Geometry, const Law&, double v0, double x0 = 0);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by

@@ -65,9 +65,10 @@ std::vector<Quantity> columns_of(Route route) {
   return {Quantity::t, fitted_column(route)};
 }
 
-std::vector<Run> read_runs(Tool& tool, Reader& in, Route route) {
+std::vector<Run> read_runs(Tool& tool, Reader& in, Route route, bool needs_x) {
   PerQuantity<std::optional<std::size_t>> slots;
   for (const Quantity q : columns_of(route)) slots[q] = in.need(std::string(name_of(q)));
+  if (needs_x) slots[Quantity::x] = in.need("x");
   std::vector<Run> runs;
   while (in.next_run()) {
     Run& run = runs.emplace_back();
@@ -113,6 +114,8 @@ void Bodies::give_to(std::vector<Run>& runs) const {
     runs[i].body.sigma_K = K.sigma;
     runs[i].body.R = R.value;
     runs[i].body.sigma_R = R.sigma;
+    if (!begins.empty()) runs[i].x0 = of_run(begins, "x0", i, runs.size()).value;
+    else if (body.road && !runs[i].x.empty()) runs[i].x0 = runs[i].x.front();
     if (!winds.empty()) runs[i].body.wind = of_run(winds, "wind", i, runs.size()).value;
   }
 }

@@ -23,7 +23,7 @@ std::vector<Quantity> columns_of(Route);
 /// Reads all runs with their names and their filters, but without the numbers of the body. Warns
 /// of `##` lines that are not trusted or that one run lacks, and of rows that are left out because
 /// their windows are not known.
-std::vector<Run> read_runs(Tool&, Reader&, Route);
+std::vector<Run> read_runs(Tool&, Reader&, Route, bool needs_x = false);
 
 /// Speeds of a wheel's pulses are one fixed distance over the time from row to row. If all runs
 /// have such speeds, this gives them the positions of their pulses, which are what was measured,
@@ -37,6 +37,7 @@ struct Bodies {
   std::vector<Estimate> shape_factors = {};
   std::vector<Estimate> radii = {};
   std::vector<Estimate> winds = {};
+  std::vector<Estimate> begins = {};  ///< x0 of runs of speeds on a road
 
   void give_to(std::vector<Run>&) const;
 };
