@@ -87,25 +87,27 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   name_columns();
 }
 
-/// Headers in other languages: the only column in a unit of time serves as t, and where none is x
-/// or v by its name, the only speed as v, or else the only length as x. (A length beside a speed
-/// may be its accuracy.)
+/// Headers in other languages: the only column in a unit of time serves as t, else the only one in
+/// that of a clock; and where none is x or v by its name, the only speed as v, or else the only
+/// length as x. (A length beside a speed may be its accuracy.)
 void NeededColumns::serve_by_units() {
   by_unit_.clear();
   if (!named_) return;
   const auto names = [&](const std::string& quantity) {
     return std::ranges::count(quantities_, quantity) > 0;
   };
-  for (const std::string quantity : {"t", "v", "x"}) {
-    if (quantity == "t" ? names("t") : names("x") || names("v")) continue;
+  const auto serve = [&](const std::string& quantity, const auto& has_its_unit) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
-      if (unit_of(quantity, as_read_[i].unit) && !known_quantity(quantities_[i]))
-        found.push_back(i);
-    if (found.size() != 1) continue;
+      if (has_its_unit(as_read_[i]) && !known_quantity(quantities_[i])) found.push_back(i);
+    if (found.size() != 1) return;
     quantities_[found.front()] = quantity;
     by_unit_.insert(found.front());
-  }
+  };
+  for (const std::string quantity : {"t", "v", "x"})
+    if (quantity == "t" ? !names("t") : !names("x") && !names("v"))
+      serve(quantity, [&](const Column& c) { return unit_of(quantity, c.unit).has_value(); });
+  if (!names("t")) serve("t", [](const Column& c) { return is_clock_unit(c.unit); });
 }
 
 /// True for a column that is a time by its name or its unit, but for one that a tool has renamed.

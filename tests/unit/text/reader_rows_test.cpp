@@ -9,6 +9,8 @@ TEST_CASE("reader: clock times are seconds", "[text]") {
   CHECK(rows({"Time v\n2026-11-24T23:59:59Z 1\n2026-11-25T00:00:01Z 2\n"}) == "86399 1 | 86401 2");
   CHECK(rows({"Time\tv\n23:59:59\t1\n0:00:00\t2\n\n0:00:01\t3\n"}) == "86399 1 | 86400 2 || 1 3");
   CHECK(rows({"Time (hh:mm:ss.fff),v\n9:59:59,1\n\"10:00:00\",2\n"}) == "35999 1 | 36000 2");
+  CHECK(rows({"Laufzeit [hh:mm:ss];v\n00:01:01;1\n00:01:02;2\n"}) == "61 1 | 62 2");
+  CHECK(rows({"Laufzeit [s];Uhr [hh:mm:ss];v\n1;00:01:01;1\n2;00:01:02;2\n"}) == "1 1 | 2 2");
   CHECK(rows({"Time (hhmmss),v\n95959.5,1\n100000,2\n"}) == "35999.5 1 | 36000 2");
   CHECK(rows({"1 101259.5\n2 101300\n"}, {.use = {"v=1", "t=2[hhmmss]"}}) == "36779.5 1 | 36780 2");
   CHECK(rows({"Time,v\n1:00:00,1\nNaN,2\n,3\n1:00:01,4\n"}) == "3600 1 | 3601 4");
