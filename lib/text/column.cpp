@@ -105,7 +105,8 @@ Column read_column(std::string_view text) {
     column.name = quantity;
   } else if (const std::string below = bare_unit(trim(name.substr(slash + 1)));
              unit_of(quantity, below)) {  // t/ms
-    column.name = quantity, column.unit = below;
+    column.name = quantity;
+    column.unit = below;
   } else {
     column.name = name;
   }

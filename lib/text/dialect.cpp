@@ -212,7 +212,10 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
-  if (needs_quotes(field.text)) may_need_quotes_ = true, as_it_stands_ = false;
+  if (needs_quotes(field.text)) {
+    may_need_quotes_ = true;
+    as_it_stands_ = false;
+  }
   if (allows_foreign() && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
@@ -246,8 +249,9 @@ bool Dialect::rewrite(Field& field) {
     passed_thousands_ |= field.wanted;
     return field.wanted && parse_number(field.text, field.number);
   }
-  const bool other_minus = holds(field.text, minus[0]), comma = holds(field.text, ','),
-             point = holds(field.text, '.');
+  const bool other_minus = holds(field.text, minus[0]);
+  const bool comma = holds(field.text, ',');
+  const bool point = holds(field.text, '.');
   if (!other_minus && (decimal_mark_ == '.' || (!comma && !point))) return false;
   if (separator_ == '\t' && decimal_mark_ == '\0' && may_be_thousands(field.text, ',')) {
     if (field.wanted)

@@ -89,7 +89,8 @@ bool Filter::next_row() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;
-  const std::size_t begin = texts_.size(), place = in_.append_text(texts_, cut_);
+  const std::size_t begin = texts_.size();
+  const std::size_t place = in_.append_text(texts_, cut_);
   lines_.push_back({static_cast<std::uint32_t>(texts_.size() - begin),
                     static_cast<std::uint32_t>(place), Kind::row});
   ++read_;
@@ -111,7 +112,8 @@ void Filter::write_head() {
   if (any_row_) out_.end_line();
   write_comments();
   out_.text(history_);
-  out_.text(std::exchange(names_, {})), out_.end_line();
+  out_.text(std::exchange(names_, {}));
+  out_.end_line();
 }
 
 /// Prepares the head of a part of a run: the history of the run, the name of the part.
@@ -132,8 +134,10 @@ void Filter::begin_part() {
 }
 
 void Filter::write_comments() {
-  for (const std::string& comment : std::exchange(comments_, {}))
-    out_.text(comment), out_.end_line();
+  for (const std::string& comment : std::exchange(comments_, {})) {
+    out_.text(comment);
+    out_.end_line();
+  }
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.

@@ -113,9 +113,11 @@ const Comment* choose_names(std::span<const Comment> comments, const UnnamedColu
   for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
     if (comments[i].is_bare() || comments[i].is_history()) continue;
     CommentedNames found = names_in_comment(comments[i].text, columns);
-    if (found.known > 0 ||
-        (first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure)))
-      chosen = &comments[i], names = std::move(found);
+    const bool may_be_names =
+        first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure);
+    if (found.known == 0 && !may_be_names) continue;
+    chosen = &comments[i];
+    names = std::move(found);
   }
   if (names.known > 0 && (names.separator == '\t' || names.known == names.names.size()))
     return chosen;
@@ -341,9 +343,11 @@ class HeadReader {
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
   /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
   void note_sorted_history() {
-    std::size_t all = 0, below = 0;
-    for (const Comment& line : above_)
-      if (line.is_history()) ++all, below += line.line > head_.line;
+    const auto is_below = [&](const Comment& line) {
+      return line.is_history() && line.line > head_.line;
+    };
+    const auto all = std::ranges::count_if(above_, &Comment::is_history);
+    const auto below = std::ranges::count_if(above_, is_below);
     if (below > 0 && all > 1)
       above_.push_back({fmt::format("## {}", lines_sorted), above_.back().line});
   }

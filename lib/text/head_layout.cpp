@@ -35,8 +35,10 @@ std::vector<std::string> labels_of_runs(const std::vector<Column>& line) {
 std::vector<Column> without_other_labels(std::vector<Column> line,
                                          const std::vector<std::string>& runs) {
   for (Column& c : line)
-    if (!c.run.empty() && !is_known(c) && std::ranges::count(runs, c.run) == 0)
-      c.name = labelled_name(c), c.run.clear();
+    if (!c.run.empty() && !is_known(c) && std::ranges::count(runs, c.run) == 0) {
+      c.name = labelled_name(c);
+      c.run.clear();
+    }
   return line;
 }
 
@@ -59,10 +61,11 @@ Layout Layout::of(const std::vector<Column>& named, Sides sides) {
   const auto line = without_other_labels(named, labels);
   std::map<std::string, std::size_t> count, seen;  // of a name
   for (const Column& column : line) ++count[column.name];
-  const std::size_t all = sides == Sides::one ? 1
-                          : labels.empty()    ? std::max<std::size_t>(count["t"], 1)
-                                              : labels.size();
-  const bool labelled = all > 1 && !labels.empty(), counted = all > 1 && labels.empty();
+  std::size_t all = 1;
+  if (sides == Sides::by_names)
+    all = labels.empty() ? std::max<std::size_t>(count["t"], 1) : labels.size();
+  const bool labelled = all > 1 && !labels.empty();
+  const bool counted = all > 1 && labels.empty();
   if (all > 1) refuse_unclear(line, count, labelled);
   Layout layout{std::vector<Run>(all), line.size(), std::vector<bool>(line.size())};
   for (std::size_t r = 0; r < std::min(all, labels.size()); ++r) layout.runs[r].label = labels[r];
@@ -70,9 +73,9 @@ Layout Layout::of(const std::vector<Column>& named, Sides sides) {
     const std::string& name = line[i].name;
     const auto label =
         static_cast<std::size_t>(std::ranges::find(labels, line[i].run) - labels.begin());
-    const std::size_t own = labelled                     ? label
-                            : counted && count[name] > 1 ? std::min(seen[name]++, all - 1)
-                                                         : all;
+    std::size_t own = all;  // none: the column belongs to every run
+    if (labelled) own = label;
+    else if (counted && count[name] > 1) own = std::min(seen[name]++, all - 1);
     layout.shared[i] = own == all;
     for (std::size_t r = 0; r < all; ++r)
       if (r == own || own == all) {

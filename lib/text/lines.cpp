@@ -89,7 +89,9 @@ bool Lines::fill() {
     set_end(buffer_, std::copy(kept_, std::as_const(buffer_).end(), buffer_.data()));
   char* const to = space(buffer_, block);
   const ssize_t count = read_some(fd_, to, std::min(block, longest_line - size));
-  kept_ = buffer_.data(), at_ = to - size, end_ = to;
+  kept_ = buffer_.data();
+  at_ = to - size;
+  end_ = to;
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
   set_end(buffer_, to + count);
   end_ += count;
@@ -109,7 +111,10 @@ const char* Lines::end_of_line() {
 }
 
 bool Lines::next() {
-  if (!held_) kept_ = at_, kept_count_ = count_;
+  if (!held_) {
+    kept_ = at_;
+    kept_count_ = count_;
+  }
   if (!next_in_file()) return false;
   number_ = count_;
   if (!separators_.empty()) join_quoted();

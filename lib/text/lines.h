@@ -40,7 +40,10 @@ class Lines {
   }
   /// The next call of next() returns to the present line or, while lines are held, to the first one
   /// of them.
-  void put_back() { at_ = kept_, count_ = kept_count_; }
+  void put_back() {
+    at_ = kept_;
+    count_ = kept_count_;
+  }
   /// While `on`, lines are held: those from the present one on, which has been put back.
   void hold(bool on) { held_ = on; }
   /// The present line, valid until the next one.

@@ -295,9 +295,8 @@ void NeededColumns::refuse_unit(const Needed& needed, const Column& meant) const
         "{}: column '{}' is {}, and {} needs {}{}", place_, name, measured, needed.quantity,
         known->in_words,
         has_use_ ? fmt::format(": say which column it is, --use {}=COLUMN", needed.quantity) : "");
-  const std::string_view units = known                 ? known->units
-                                 : needed.unit.empty() ? "none"
-                                                       : std::string_view(needed.unit);
+  std::string_view units = known ? known->units : needed.unit;
+  if (units.empty()) units = "none";
   fail<InputError>(
       "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",

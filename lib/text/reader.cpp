@@ -121,7 +121,8 @@ bool Reader::next_file() {
 }
 
 void Reader::take_head(Head head) {
-  const std::size_t width = head.layout.width, before = head_.layout.width;
+  const std::size_t width = head.layout.width;
+  const std::size_t before = head_.layout.width;
   if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
     fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
                      options_.files.front(),

@@ -76,7 +76,10 @@ bool Reader::next() {
   if (state_ != State::in_run) return false;
   for (;;) {
     if (!take_plain_line()) {
-      if (!next_line()) return left_out_ -= std::exchange(blank_rows_, 0), false;
+      if (!next_line()) {
+        left_out_ -= std::exchange(blank_rows_, 0);
+        return false;
+      }
       fields_ = split();
     }
     if (take_row()) return row_found_ = true;
@@ -113,7 +116,10 @@ bool Reader::take_fields() {
     blank &= head_.layout.shared[i] || changed_fields_.back().text.empty();
   }
   fields_ = changed_fields_;
-  if (blank) return ++blank_rows_, false;
+  if (blank) {
+    ++blank_rows_;
+    return false;
+  }
   if (std::exchange(blank_rows_, 0) > 0 && options_.strict)
     fail<InputError>("{}: the readings of the row above are missing", here());
   return true;

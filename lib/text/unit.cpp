@@ -135,7 +135,8 @@ std::optional<Unit> read_unit(std::string_view text) {
   constexpr std::string_view in = "in ";  // Zeit (in s)
   if (slash == std::string_view::npos)
     return unit.starts_with(in) ? read_unit(unit.substr(in.size())) : std::nullopt;
-  const auto above = read_unit(unit.substr(0, slash)), below = read_unit(unit.substr(slash + 1));
+  const auto above = read_unit(unit.substr(0, slash));
+  const auto below = read_unit(unit.substr(slash + 1));
   if (!above || !below) return {};
   const Conversion& of = above->to_si;
   const Conversion& per = below->to_si;
