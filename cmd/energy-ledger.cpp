@@ -202,12 +202,14 @@ int write_summary(Tool& tool, Reader& in, const Task& task) {
                                  {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
                                  {"closure_L", ""}};
   if (inclined) columns.push_back({"W_g", "J"});
+  if (tool.out.plain) tool.out.run_among(in.comments());
   tool.out.names(columns);
   return balance_runs(
       tool, in, task, in, [](const LawOfFile&) {},
       [](const Ledger&, const Balance&, const LawOfFile&) {},
       [&](const Balance& balance) {
     const Account& energy = balance.energy;
+    if (tool.out.plain) tool.out.run_among(in.comments());
     for (const double cell : {energy.start(), energy.end(), energy.to_mat()}) tool.out.cell(cell);
     for (const double cell :
          {energy.closure(), energy.imbalance(), balance.p.closure(), balance.L.closure()}) {

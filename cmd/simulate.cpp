@@ -152,7 +152,7 @@ void check_options(const Tool& tool, const Task& task) {
   if (task.report)
     tool.refuse({"dt", "at", "columns", "sensor"}, "does not go with --report, without a motion");
   if (tool.on_command_line("sensor"))
-    tool.refuse({"dt", "at", "columns", "x0", "t0"},
+    tool.refuse({"dt", "at", "columns", "x0", "t0", "plain"},
                 "does not go with --sensor, whose rows come at --rate, with its own columns, "
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
@@ -272,8 +272,7 @@ class RowWriter {
           fail("t = {} is before the roll, which begins at {}", in[t], task_.t0);
         if (!motion) {
           if (!std::exchange(first, false)) out_.end_line();
-          for (const std::string& comment : in.comments())
-            if (comment.starts_with("## run ")) out_.text(comment), out_.end_line();
+          out_.run_among(in.comments());
           write_header();
           motion = task_.start();
         }

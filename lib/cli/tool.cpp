@@ -40,6 +40,8 @@ void Tool::output() {
   count("--digits", out.digits,
         {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
         "round computed numbers to this many significant digits");
+  flag("--plain", out.plain,
+       "print one table for other programs: no # and no blank line, the run in a last column");
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");
 }
 

@@ -147,7 +147,7 @@ class Tool {
   void equal_times();  ///< --equal-times
   /// Whether --use says which column this quantity is.
   bool uses(const std::string& quantity) const;
-  void output();  ///< --digits -u
+  void output();  ///< --digits --plain -u
 
   /// Throws one Error that lists those of these options (long names) which have a value neither on
   /// the command line nor in the scene.

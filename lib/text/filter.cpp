@@ -9,7 +9,7 @@
 namespace rolling {
 
 Filter::Filter(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history) + '\n'),
+    : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history)),
       enough_(rows_at_once()) {}
 
 Filter::~Filter() {
@@ -111,9 +111,11 @@ void Filter::write_head() {
   if (names_.empty()) return;
   if (any_row_) out_.end_line();
   write_comments();
-  out_.text(history_);
-  out_.text(std::exchange(names_, {}));
-  out_.end_line();
+  if (!history_.empty()) {
+    out_.text(history_);
+    out_.end_line();
+  }
+  out_.header(std::exchange(names_, {}));
 }
 
 /// Prepares the head of a part of a run: the history of the run, the name of the part.

@@ -38,7 +38,7 @@ class Filter {
   Filter& operator=(const Filter&) = delete;
   /// Another line than that of the runs before. For the present run before the first of its
   /// numbers.
-  void set_history(const std::string& line) { history_ = "## " + line + '\n'; }
+  void set_history(const std::string& line) { history_ = "## " + line; }
   /// What the error says behind "no rows are left".
   void say_why_none(std::function<std::string()> why) { why_none_ = std::move(why); }
 

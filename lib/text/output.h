@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,9 @@ class Output {
  public:
   int digits = 0;  ///< significant digits of computed numbers; 0: the shortest text that reads back
   bool unbuffered = false;  ///< each line is written at once
+  /// One table for other programs: the header once and without `# `, no other line that begins with
+  /// # and none that is empty, and the run that a line `## run NAME` names in a last column.
+  bool plain = false;
 
   // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }
@@ -51,12 +55,17 @@ class Output {
     append_field(buffer_, text);
   }
   void end_line() {
+    if (plain && !end_plain_line()) return;
     text('\n');
     whole_ = buffer_.size();
     cells_ = 0;
     if (unbuffered || whole_ >= block) flush();
   }
-  void names(const std::vector<Column>&);  ///< the header
+  void names(const std::vector<Column>& columns) { header(names_line(columns)); }
+  /// Writes a names_line(). With `plain`, throws Error if it is not that of the run before.
+  void header(const std::string& line);
+  /// Writes the line `## run NAME` that is among these, if one is.
+  void run_among(const std::vector<std::string>& comments);
   /// Writes the buffer. Throws OutputError if the system reports an error.
   void flush();
   /// Removes the current line and writes this one as the last of the output, if there has been any
@@ -73,6 +82,7 @@ class Output {
   void separate() {
     if (cells_++ > 0) text('\t');
   }
+  bool end_plain_line();
 
   static constexpr std::size_t block = 1 << 16;
   Bytes buffer_;
@@ -80,6 +90,9 @@ class Output {
   std::size_t whole_ = 0;  // bytes of the complete lines
   bool written_ = false;   // something has been written
   bool torn_ = false;      // the last write ended within a line
+  // With `plain`:
+  std::string header_, run_;
+  bool with_run_ = false;  // the table has a column for the run
 };
 
 }  // namespace rolling

@@ -24,7 +24,7 @@ printf 'gravity = 9.8\nslope = 1e-4\n' >scene
 # be given whatever is printed. The error of a solver is below the resolution of a sensor.
 excused='--sensor pasco --method rkf45|--sensor pasco --law rows --run two|--use D=x --scene scene'
 scene='-g 9.7|--slope 0.001|--exact|--scene scene'
-input='--run 2|--strict|--digits 5'
+input='--run 2|--strict|--digits 5|--plain'
 declare -A begin=(
   [smooth]='smooth gap'
   [differentiate]='differentiate roll'
@@ -38,7 +38,7 @@ declare -A options=(
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
   [fitpower]="--min-speed 0.2|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"
-  [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--law rows --run two|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16"
+  [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--law rows --run two|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16|--plain"
   [energy-ledger]="-a 1e-3|-b 0.1|--law row|--law table|--columns E_trans,F_N,A,Pi_S,W_g|--summary|--check 1e-3|--use v=x|$scene|$input"
 )
 

@@ -18,8 +18,9 @@ void row(Output& out, std::initializer_list<double> cells) {
 
 }  // namespace
 
-TEST_CASE("output: names read back as they are, those that begin with a quote too", "[text]") {
-  const std::vector<Column> columns{{"t", "s"}, {"\"v\""}, {"\"w\"_1", "m"}, {"5\""}, {"\"u"}};
+TEST_CASE("output: names read back as they are, those that begin with a quote or # too", "[text]") {
+  const std::vector<Column> columns{{"t", "s"}, {"\"v\""}, {"\"w\"_1", "m"},
+                                    {"5\""},    {"\"u"},   {"#1"}};
   const std::string line = names_line(columns);
   std::vector<Column> read;
   for (const std::string& name : split_names(std::string_view(line).substr(2), '\t'))
