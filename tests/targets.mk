@@ -7,7 +7,7 @@ static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
-        mutate coverage bad-runs work-precision work-precision-signal bench lint
+        mutate coverage bad-runs peers work-precision work-precision-signal bench lint
 
 -include $(patsubst %.o,%.d,$(call object,$(test) \
            $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
@@ -217,6 +217,18 @@ work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision $(call short,2)
 	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
+
+# The digits of other programs on the certified fits, beside ours: the table at the end of that README.
+peer_python = $(firstword $(foreach p,python3 /usr/bin/python3,\
+                $(shell $p -c 'import lmfit' 2>/dev/null && echo $p)) python3)
+peers: all
+	@PATH="$$PWD/bin:$$PATH" $(peer_python) tests/reference/peers.py tests/reference/fits \
+	  $(call short,Rubber1 Turn1) >build/peers.txt
+	@cat build/peers.txt
+ifeq ($(SHORT),)
+	@{ sed '/^    record /,$$d' tests/reference/README.md; sed 's/^/    /; s/ *$$//' build/peers.txt; } \
+	  >build/README && cp build/README tests/reference/README.md
+endif
 
 # How fast the tools are beside peers and bare loops: some minutes.
 bench: all build/bench/speed

@@ -35,6 +35,7 @@ for goal; do
     deb) need dpkg-dev; continue ;;
     lint) need clang-format-14 clang-tidy-14 cppcheck shellcheck mandoc; continue ;;
     fuzz) need clang-14; continue ;;
+    peers) need gnuplot-nox python3-lmfit; continue ;;
   esac
   # Whatever runs the tests.
   need catch2 libboost-dev mandoc gnuplot-nox locales busybox gawk mawk original-awk xz-utils

@@ -38,6 +38,13 @@ for goal in $goals; do
       # A fault that a run shows is never silent; the others are marked.
       awk -F '\t' '/^#/ { next } { rows++ } $1 == "none" { if ($6 < $2) exit 1; next } $1 !~ / -$/ && $6 > 0 { exit 1 }
         END { if (rows < 15) exit 1 }' build/bad-runs.txt || complain "$(cat build/bad-runs.txt)" ;;
+    peers)
+      for python in python3 /usr/bin/python3; do
+        "$python" -c 'import lmfit' 2>/dev/null || continue
+        run peers
+        has build/peers.txt '^Rubber1 +1[1-6][.0-9]* / 1[1-6][.0-9]* +[4-9]'
+        break
+      done ;;
     work-precision)
       run work-precision
       awk -F '\t' '$1 == "v" && NF == 2 { found = $2 } END { exit !(found > 0 && found < 1e-13) }' \

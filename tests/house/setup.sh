@@ -36,6 +36,7 @@ needs html mandoc
 needs deb dpkg-dev
 needs static 'binutils xz-utils'
 needs static-arm64 'binutils g++-aarch64-linux-gnu qemu-user xz-utils'
+needs peers 'gnuplot-nox python3-lmfit'
 needs lint 'clang-format-14 clang-tidy-14 cppcheck mandoc shellcheck'
 needs check 'busybox catch2 gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk xz-utils'
 needs check-arm64 'busybox catch2 g++-aarch64-linux-gnu gawk gnuplot-nox libboost-dev locales mandoc mawk original-awk qemu-user xz-utils'

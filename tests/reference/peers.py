@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fits the records of fits/*.dat that have a closed form with other programs, and prints how many
-digits of the certified values each finds: the least over the parameters and over their standard
-deviations, from both starting values; `-` if it finds no minimum.
+"""Fits the records of fits/*.dat with this project and, those that have a closed form, with other
+programs, and prints how many digits of the certified values each finds: the least over the
+parameters / the least over their standard deviations. A program that asks for starting values gets
+both of the file, and the worse one counts; `-` if it finds no minimum from one of them.
 
-    python3 peers.py fits        (scipy, lmfit, gnuplot)
+    python3 peers.py FOLDER [RECORD...]   scipy, lmfit, gnuplot; the tools on the PATH
 """
 import glob
 import os
@@ -15,6 +16,7 @@ import tempfile
 
 import lmfit
 import numpy as np
+import scipy
 from scipy.optimize import curve_fit
 
 
@@ -33,7 +35,7 @@ def read(path):
 
 def digits(found, certified):
     off = np.abs(found / certified - 1)
-    return "-" if not np.all(off < 0.1) else "%.1f" % min(16, -np.log10(max(off.max(), 1e-16)))
+    return min(16, -np.log10(max(off.max(), 1e-16))) if np.all(off < 0.1) else np.nan
 
 
 def with_numpy(model, c):
@@ -45,7 +47,7 @@ def with_numpy(model, c):
     return of
 
 
-def scipy(of, x, y, start):
+def of_scipy(of, x, y, start):
     found, covariance = curve_fit(of, x, y, start, maxfev=20000, ftol=1e-15, xtol=1e-15, gtol=1e-15)
     return found, np.sqrt(np.diag(covariance))
 
@@ -55,12 +57,13 @@ def of_lmfit(of, x, y, start):
     parameters = lmfit.Parameters()
     for name, value in zip(names, start):
         parameters.add(name, value)
-    fit = lmfit.minimize(lambda p: of(x, *[p[n].value for n in names]) - y, parameters)
+    fit = lmfit.minimize(lambda p: of(x, *[p[n].value for n in names]) - y, parameters,
+                         ftol=1e-15, xtol=1e-15, gtol=1e-15)
     return (np.array([fit.params[n].value for n in names]),
             np.array([fit.params[n].stderr or np.nan for n in names]))
 
 
-def gnuplot(model, c, x, y, start):
+def of_gnuplot(model, c, x, y, start):
     with tempfile.TemporaryDirectory() as folder:
         np.savetxt(os.path.join(folder, "data"), np.c_[x, y], fmt="%.17g")
         b = [f"b{i + 1}" for i in range(len(start))]
@@ -73,28 +76,56 @@ def gnuplot(model, c, x, y, start):
         return rows[:, 0], rows[:, 1]
 
 
+def of_rolling():
+    """As right-digits.awk has them: {record: (digits of the parameters, of their sigmas)}."""
+    script = os.path.join(os.path.dirname(__file__), "../pipeline/certified-fits.sh")
+    out = subprocess.run([script, "table"], capture_output=True, text=True, check=True)
+    right = {}
+    for name, _, *words in (line.split() for line in out.stdout.splitlines()):
+        cells = [(what, float(z)) for what, z in zip(words[::2], words[1::2]) if what != "rms"]
+        right[name] = (min(z for what, z in cells if not what.startswith("sigma_")),
+                       min(z for what, z in cells if what.startswith("sigma_")))
+    return right
+
+
+def show(pair):
+    return "-" if np.isnan(pair).any() else "%.1f / %.1f" % tuple(pair)
+
+
+def worst(fit, rows):
+    pairs = []
+    for start in (rows[:, 0], rows[:, 1]):
+        try:
+            found, sigma = fit(start)
+            pairs.append((digits(found, rows[:, 2]), digits(sigma, rows[:, 3])))
+        except (RuntimeError, ValueError, IndexError):
+            pairs.append((np.nan, np.nan))
+    return show(np.min(pairs, axis=0))
+
+
+def version(program):
+    out = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+    return re.search(r"\d[.\d]*( patchlevel \d+)?", out.stdout).group().replace(" patchlevel ", ".")
+
+
 def main():
-    programs = ["scipy", "lmfit", "gnuplot"]
-    print("%-10s" % "record" + "".join("%16s" % p for p in programs))
+    programs = {"rolling": version("fitpower"), "scipy": scipy.__version__,
+                "lmfit": lmfit.__version__, "gnuplot": version("gnuplot")}
+    print(("%-9s" + "%15s" * 4) % ("record", *(f"{p} {v}" for p, v in programs.items())))
+    ours = of_rolling()
     for path in sorted(glob.glob(os.path.join(sys.argv[1], "*.dat"))):
-        case = read(path)
-        if not case:
+        name = os.path.basename(path)[:-4]
+        if sys.argv[2:] and name not in sys.argv[2:]:
             continue
-        model, c, rows, y, x = case
-        of = with_numpy(model, c)
-        line = "%-10s" % os.path.basename(path)[:-4]
-        for program in programs:
-            cells = []
-            for start in (rows[:, 0], rows[:, 1]):
-                try:
-                    found, sigma = (scipy(of, x, y, start) if program == "scipy" else
-                                    of_lmfit(of, x, y, start) if program == "lmfit" else
-                                    gnuplot(model, c, x, y, start))
-                    cells.append(digits(found, rows[:, 2]) + "/" + digits(sigma, rows[:, 3]))
-                except Exception:
-                    cells.append("-")
-            line += "%16s" % " ".join(cells)
-        print(line, flush=True)
+        cells = [show(ours[name])]
+        case = read(path)
+        if case:
+            model, c, rows, y, x = case
+            of = with_numpy(model, c)
+            cells += [worst(lambda start: of_scipy(of, x, y, start), rows),
+                      worst(lambda start: of_lmfit(of, x, y, start), rows),
+                      worst(lambda start: of_gnuplot(model, c, x, y, start), rows)]
+        print("%-9s" % name + "".join("%15s" % cell for cell in cells), flush=True)
 
 
 main()
