@@ -80,7 +80,7 @@ void doubt_wind(Tool& tool, const FitOptions& options, std::size_t runs) {
     tool.refuse({"wind"}, "acts on a term d2 v^2: say --law d0+d2*v^2, or another with d2");
   if (options.fit_wind && runs > 1)
     tool.warn(
-        "one wind is fitted for all runs: where it was not the same, the law is off, and the "
+        "one wind is fitted for all runs: if it was not the same, the law is off, and the "
         "residuals do not show it");
 }
 
@@ -235,7 +235,7 @@ int main(int argc, char** argv) {
   add_height(tool, height);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
-            "tell on standard error how the uncertainties were made, and the fits of other laws");
+            "print on standard error how the uncertainties were made, and the fits of other laws");
   tool.flag("--check", tool.checks,
             "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
             "the fit");

@@ -182,8 +182,8 @@ lie on each other; on rubber it grows with the velocity. The points of one body 
 each reading is in eleven means, and the fit takes that into account.
 HTML
 drawn residuals "The residuals of a fit" <<'HTML'
-The cylinder on rubber: what is left of the positions when the motion that the law predicts is taken
-off, against time and against velocity. They scatter evenly about zero and not more in one place than
+The cylinder on rubber: the residuals, measured positions minus those that the law predicts, against
+time and against velocity. They scatter evenly about zero and not more in one place than
 in another: the law describes the run. <i>To discuss:</i> what would they look like if the hand were
 still on the body at the beginning, or the mat had a hole?
 HTML
@@ -217,8 +217,8 @@ motion. Their sum stays level only if the shift is right. The rotation of the cy
 energy of its translation, at any speed: that is its <i>K</i>.
 HTML
 drawn turn "Up an incline, and back" <<'HTML'
-A ball that is sent up 2 cm a metre, turns and comes back. The shift is against the motion both ways,
-gravity is not: one such run tells the slope from the law. It comes back slower than it went, and what
+A ball that is sent up 2 cm a metre, turns and comes back. Rolling resistance opposes the motion both
+ways; gravity does not: one such run separates the slope from the law. It comes back slower than it went, and what
 is missing has been dissipated. <i>To discuss:</i> why is the line of the velocity steeper on the way
 up?
 HTML

@@ -120,8 +120,8 @@ else
 fi
 echo
 cat <<'TEXT'
-The second error is that of K and R as the scenes state them. It is common to all rolls of a body and
-to all routes: more rolls do not make it smaller, and it does not count where their rows are compared.
+The second +- comes from K and R as the scenes state them. It is common to all rolls of a body and to
+all routes: more rolls do not make it smaller, and it does not count if their rows are compared.
 TEXT
 
 echo
@@ -252,11 +252,10 @@ done
 [ $own = 0 ] || exit $failed
 echo
 cat <<'TEXT'
-On felt the law of one body closes the ledger of the other: one law, and both K are right within some
-2 %, for the speeds at the ends make closures scatter by 0.6 %. On rubber the cylinder's law takes a
-tenth too much from the shell, and the shell's law as much too little from the cylinder, as the paper's
-own values do; to make one law of them, K of the shell would have to be off by 0.2. "Nearly the same
-for both bodies" means, on rubber, within a tenth of the energy.
+On felt either body's law predicts the other's loss; the noise of the end speeds (0.6 %) limits this to
+2 % in K. On rubber the cylinder's law takes 12 % too much from the shell, and the shell's law 8 % too
+little from the cylinder, as the paper's own values do; to make one law of them, K of the shell would
+have to be off by 0.2. "Nearly the same for both bodies" means, on rubber, within 12 % of the energy.
 TEXT
 
 # Two rolls of the cylinder on a mat that rises by 1 mm in a metre, one up and one down, simulated

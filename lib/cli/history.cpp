@@ -80,7 +80,7 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
     if (!is_right) fail("`## {}` is not what its tool writes", shown(line));
   };
   if (line == columns_renamed) return false;
-  if (line == lines_sorted) fail("its `##` lines were sorted, so that their order tells nothing");
+  if (line == lines_sorted) fail("its `##` lines were sorted, so that their order says nothing");
   FilterChain& filters = history.filters;
   if (words[0] == "shift-from-accel") {
     believe(history.shift_of.has_value());

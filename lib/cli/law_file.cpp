@@ -186,7 +186,7 @@ std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const LawForm& form,
              !tool.on_command_line(number.name);
     };
     if (replaced && !row.has_contact && std::ranges::none_of(roll_numbers, is_taken))
-      fail<OptionError>("--law tells nothing that is not on the command line: leave it out");
+      fail<OptionError>("--law adds nothing to the command line: leave it out");
     if (replaced) row.law = options.power;
   }
   return all;

@@ -55,7 +55,7 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
   if (options.fit_slope && route == Route::loglog)
     fail("the slope shows in a roll alone, not in a line through ln D: --route shift");
   if (options.fit_slope && route == Route::shift && !known)
-    fail("the slope shows in a roll alone: on this route `##` lines must tell how D was made");
+    fail("the slope shows in a roll alone: on this route `##` lines must say how D was made");
   if ((options.fit_wind || runs.front().body.wind != 0) && !is_trajectory(route))
     fail("the wind shows in a roll alone: --route velocity or position");
   if (options.robust && known)

@@ -19,7 +19,7 @@ void set_filters(Tool& tool, const Reader& in, Route route, Run& run) {
   if (in.renames() && !history.filters.empty())
     history = {.doubt = "--use takes other columns than its `##` lines speak of"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
-    history.doubt = "it has no times, without which its `##` lines tell nothing";
+    history.doubt = "it has no times, and without them its `##` lines say nothing";
   history = give_filters(std::move(history), run, columns_of(route));
   if (!history.doubt.empty())
     tool.warn(run.name, history.doubt + ": the fit goes on as if no filter were known");
@@ -149,7 +149,7 @@ void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs, Geometry geom
       if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
         add_item(others, "A = 1 (here --exact)");
     } else if (!unused.empty())
-      tool.warn(run.name, "not used: " + unused + ": no `##` line tells how D was computed");
+      tool.warn(run.name, "not used: " + unused + ": no `##` line says how D was computed");
     if (!others.empty())
       tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }

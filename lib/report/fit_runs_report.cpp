@@ -87,7 +87,7 @@ class Remarks {
     geometry();
     if (r_.agreement && !r_.agreement->agree())
       object("", disagreement(*r_.agreement, fit_.runs) +
-                     "; where they rolled in both directions, --slope fit; where bodies differ, a "
+                     "; if they rolled in both directions, --slope fit; if bodies differ, a "
                      "K for each");
     if (noisy_) causes();
     const LawForm& law = r_.law.form();
@@ -99,7 +99,7 @@ class Remarks {
     }
     if (noisy_ && r_.scene[0] && r_.scene[0]->sigma > 0 && fit_.runs.size() == 2)
       tool_.warn("",
-                 "two rolls alone tell the slope: what their laws differ by counts as slope, and "
+                 "two rolls alone give the slope: what their laws differ by counts as slope, and "
                  "its standard uncertainty does not hold that; add rolls in both directions");
     if (!tool_.checks) return;
     if (other_law)
@@ -201,12 +201,13 @@ class Remarks {
     if (const auto& found = r_.eccentricity)
       return tool_.warn(
           fit_.runs[found->run].name,
-          fmt::format("the speed changes once a turn ({}; one good run in a hundred is told so "
-                      "too), as if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most "
-                      "ahead of it at {:.0f} degrees: the law is further off than its "
-                      "uncertainties say; balance the body, unless --report shows a better law",
-                      p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
-                      std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
+          fmt::format(
+              "the speed changes once a turn ({}; 1 % of good runs get this warning), as "
+              "if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of it "
+              "at {:.0f} degrees: the law is further off than its uncertainties say; "
+              "balance the body, unless --report shows a better law",
+              p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
+              std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
     if (noise_is_correlated(r_) && !tool_.checks) tell_not_white();
     else if (r_.reversals <= levels::few_reversals)
       tool_.warn(run_,
@@ -255,7 +256,7 @@ class Remarks {
   void check() {
     if (r_.errors == Errors::none ||
         (r_.sigma_a == 0 && r_.sigma_b == 0 && !(options_.a && options_.b)))
-      object(run_, "nothing is left to tell standard uncertainties from: fit more readings");
+      object(run_, "nothing is left for standard uncertainties: fit more readings");
     if (!noisy_) return;
     if (const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_))
       object(fit_.runs[beginning->run].name,

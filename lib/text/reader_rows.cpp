@@ -38,7 +38,7 @@ bool Reader::next_line() {
       const std::string_view comment = lines_->text().substr(lines_->text().find('#'));
       if (state_ == State::in_run && are_names(comment))
         fail<InputError>(
-            "{}: names among the rows; where another run begins, put a blank line before it",
+            "{}: names among the rows; if another run begins here, put a blank line before it",
             here());
       if (side_ == 0) remarks_.emplace_back(comment);
     } else {

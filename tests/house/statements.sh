@@ -43,6 +43,27 @@ cut -d , -f 1,2 samples/CR.csv >"$scratch/run.csv"
 says man/rolling.7 "$(smooth -q --coast "$scratch/run.csv" | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
   printf "So a = (%.2f \\(+- %.2f) mm is the shift D at 1 m/s, and b = %.3f \\(+- %.3f.", 1e3 * $1, 1e3 * $2, $3, $4 }')"
 
+# README: the row of its first command in words, with C_rr; and of what the samples were made.
+says README.md "$(smooth -q --coast samples/CR.csv | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
+  printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** At 1 m/s the force of the mat acts %.2f mm ahead of the lowest point; there C_rr = D/R = %.3f.",
+    1e3 * $1, 1e5 * $2, $3, 1e3 * $4, 1e3 * $1, $1 / 0.04 }')"
+says README.md "$(awk '/^coefficient/ { a = $3 } /^exponent/ { b = $3 }
+  END { printf "**All samples are simulated**, from a and b of the paper: here %.2f mm and %s.", 1e3 * a, b }' samples/CR.toml)"
+
+# What table1.sh prints says that its runs are simulated, and by how much one body's law is wrong for the other.
+samples/table1.sh >"$scratch/table1" || complain 'table1.sh fails'
+head -n 1 "$scratch/table1" | grep -q "which were simulated from the paper's values" || complain 'table1: of what are its runs?'
+awk '/^  CR   SR/ { less = -$5 } /^  SR   CR/ { more = $5 }
+  END { printf "takes %.0f %% too much from the shell, and the shell'"'"'s law %.0f %% too little", 100 * more, 100 * less }' \
+  "$scratch/table1" >"$scratch/off"
+says "$scratch/table1" "$(cat "$scratch/off")"
+
+# rolling(7): a header without a unit, and decimal commas between commas.
+says man/rolling.7 "--use \\(aqv=Speed[km/h]\\(aq"
+[ "$(printf 'Time (s),Speed\n0,36\n1,18\n' | differentiate -q --use 'v=Speed[km/h]' --digits 3 | tail -n 1)" = "$(printf '1\t5\t-5')" ] ||
+  complain "--use v=Speed[km/h]"
+printf 't,v\n0,5,1,5\n' | differentiate 2>&1 | grep -q 'fields under a line of 2 names' || complain 'decimal commas between commas'
+
 # rolling-motion(7), shift-from-accel(1): A = 1 beside the exact geometry.
 says man/rolling-motion.7 "0.054 % or less at 0.5 m/s, and 0.005 to 0.035 % of the time to the stop"
 says man/shift-from-accel.1 '0.054 % for the cylinder on rubber at 0.5 m/s'
@@ -103,7 +124,7 @@ awk '/^(position|velocity|shift),/ && NF > 6 { told = $NF > $(NF - 1) ? $NF : $(
 
 # rolling(7): each of the ten warnings is one of the tools.
 grep -c '^\.It Ql' man/rolling.7 | grep -qx 10 || complain 'rolling(7): not ten warnings'
-sed -n 's/^\.It Ql //p' man/rolling.7 | sed 's/\\(aq/'"'"'/g; s/ \.\.\..*//; s/^\(there is no column\).*/\1/; s/^'"'1,5' //" >"$scratch/told"
+sed -n 's/^\.It Ql //p' man/rolling.7 | sed 's/\\(aq/'"'"'/g; s/ \.\.\..*//; s/^\(there is no column\).*/\1/; s/^fields //' >"$scratch/told"
 while read -r text; do
   cat lib/*/*.cpp cmd/*.cpp | tr -d '\n' | sed 's/" *"//g' >"$scratch/code"
   case $text in 'D is') continue ;; esac  # its numbers are between its words

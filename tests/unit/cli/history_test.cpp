@@ -141,7 +141,7 @@ TEST_CASE("history: of lines that were sorted none is believed, wherever this is
   do {
     const History history = history_of(lines, times);
     CHECK(history.filters.empty());
-    CHECK(history.doubt == "its `##` lines were sorted, so that their order tells nothing");
+    CHECK(history.doubt == "its `##` lines were sorted, so that their order says nothing");
   } while (std::ranges::next_permutation(lines).found);
 }
 

@@ -313,7 +313,7 @@ TEST_CASE("reader: the names are the last comment with as many fields as the row
   CHECK(told("# Speed (km/h) from GPS\n0 36\n") ==
         "t is column 1, taken in s; v is column 2, taken in m/s although line 1 says km/h");
   CHECK(rows({"# t[s] v[m/s]\n0 1\n# t[ms] v[km/h]\n1000 36\n"}) ==
-        "FILE:3: names among the rows; where another run begins, put a blank line before it");
+        "FILE:3: names among the rows; if another run begins here, put a blank line before it");
 }
 
 TEST_CASE("reader: a separator at an end of the commented names begins no name", "[text]") {
