@@ -55,6 +55,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
     options.fit_wind = text == "fit";
     if (!options.fit_wind) bodies.winds = to_numbers(text, any_number);
   });
+  add_height(tool, bodies.height);
   tool.add("--x0", "X,...",
            "where speeds begin on the road [m]; one, or one for each run: 0,2400 (the column x)",
            [&](const std::string& text) {
@@ -82,6 +83,13 @@ void doubt_wind(Tool& tool, const FitOptions& options, std::size_t runs) {
     tool.warn(
         "one wind is fitted for all runs: if it was not the same, the law is off, and the "
         "residuals do not show it");
+}
+
+/// Refuses the options of runs beside rows of fitpower.
+void refuse_runs(Tool& tool) {
+  tool.refuse({"each", "exact", "fix", "height", "law", "min-speed", "report", "robust", "slope",
+               "steepness", "wind", "x0"},
+              "is for the fits of the runs: --route fits reads their rows");
 }
 
 /// Gives the bodies their road; refuses what needs one without it, and what does not go with one.
@@ -222,7 +230,6 @@ int main(int argc, char** argv) {
   FitOptions options;
   bool each = false;
   bool with_report = false;
-  std::string height;
   tool.choice<std::optional<Route>>(
       "--route", given_route, routes(),
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
@@ -232,7 +239,6 @@ int main(int argc, char** argv) {
   tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
   tool.body(bodies.body, {&Body::g});
   add_options(tool, options, bodies);
-  add_height(tool, height);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
             "print on standard error how the uncertainties were made, and the fits of other laws");
@@ -245,9 +251,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (tool.on_command_line("route") && !given_route) {
-      tool.refuse({"each", "exact", "fix", "law", "min-speed", "report", "robust", "slope", "wind",
-                   "height", "x0", "steepness"},
-                  "is for the fits of the runs: --route fits reads their rows");
+      refuse_runs(tool);
       fit_rows(tool, bodies);
       return 0;
     }
@@ -261,14 +265,14 @@ int main(int argc, char** argv) {
     if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
     if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
-    const auto road = read_road(tool, height);
+    const auto road = read_road(tool, bodies.height);
     give_road(tool, bodies, road.get(), options, route);
     auto runs =
         read_runs(tool, in, route, road && route == Route::velocity && bodies.begins.empty());
     doubt_wind(tool, options, each ? 1 : runs.size());
     refuse_slow(runs, options);
     if (!each) warn_of_copies(tool, route, runs);
-    if (route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
+    if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);
     if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
     auto fits = fit_all(tool, route, std::move(runs), options, each);

@@ -38,6 +38,7 @@ struct Bodies {
   std::vector<Estimate> radii = {};
   std::vector<Estimate> winds = {};
   std::vector<Estimate> begins = {};  ///< x0 of runs of speeds on a road
+  std::string height = {};            ///< the file of the road
 
   void give_to(std::vector<Run>&) const;
 };
