@@ -5,7 +5,7 @@
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "signal/method.h"
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 int main(int argc, char** argv) {
   using namespace rolling;
@@ -29,12 +29,12 @@ int main(int argc, char** argv) {
     const std::string_view first = in.find("v") || !in.find("x") ? "v" : "x";
     const auto y = in.need(column.empty() ? first : column);
     const Column& from = in.columns()[in.column_of(y)];
-    Filter filter(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
-    filter.append(derivative_of(from));
-    while (filter.next_run()) {
+    RowPipe pipe(in, tool.out, fmt::format("differentiate {} {}", from.name, describe(options)));
+    pipe.append(derivative_of(from));
+    while (pipe.next_run()) {
       const auto derivative = make_signal(options);
-      while (filter.next()) filter.put(derivative->push(filter[t], filter[y]));
-      filter.put(derivative->finish());
+      while (pipe.next()) pipe.put(derivative->push(pipe[t], pipe[y]));
+      pipe.put(derivative->finish());
     }
     return 0;
   });

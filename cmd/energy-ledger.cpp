@@ -9,7 +9,7 @@
 #include "cli/quantities.h"
 #include "cli/tool.h"
 #include "contact/ledger.h"
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 using namespace rolling;
 
@@ -136,7 +136,7 @@ ShiftOf contact_of_shifts(Tool& tool, const Reader& in, ShiftOf contact) {
   return contact;
 }
 
-/// Balances the runs of `rows`, which are the reader or a filter behind it: begin(law) is called
+/// Balances the runs of `rows`, which are the reader or a pipe behind it: begin(law) is called
 /// before the rows of a run, of_row(now, balance, law) for each row, of_run(balance) at the
 /// end of each run that has rows. Returns the exit status: 2 if a closure is asked for and a run
 /// has none.
@@ -289,14 +289,14 @@ int main(int argc, char** argv) {
     task.D = task.uses_law ? task.v : in.need("D");
     task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
     if (task.summary) return write_summary(tool, in, task);
-    Filter filter(in, tool.out, "");
-    for (const auto& quantity : row) filter.append(quantity.column());
+    RowPipe pipe(in, tool.out, "");
+    for (const auto& quantity : row) pipe.append(quantity.column());
     return balance_runs(
-        tool, in, task, filter,
-        [&](const LawOfFile& law_of_run) { filter.set_history(line_of(task, law_of_run)); },
+        tool, in, task, pipe,
+        [&](const LawOfFile& law_of_run) { pipe.set_history(line_of(task, law_of_run)); },
         [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
       for (const auto& quantity : row)
-        filter.put(quantity.of({now, balance, temperature, law_of_run}));
+        pipe.put(quantity.of({now, balance, temperature, law_of_run}));
         },
         [](const Balance&) {});
   });

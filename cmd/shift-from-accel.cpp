@@ -6,7 +6,7 @@
 #include "cli/history.h"
 #include "cli/tool.h"
 #include "contact/contact.h"
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 int main(int argc, char** argv) {
   using namespace rolling;
@@ -24,14 +24,14 @@ int main(int argc, char** argv) {
     tool.need({"radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "a"});
     const auto a = in.need("a");
-    Filter filter(in, tool.out, line_of(by));
-    filter.append({"D", "m"});
+    RowPipe pipe(in, tool.out, line_of(by));
+    pipe.append({"D", "m"});
     std::size_t beyond = 0;
-    while (filter.next_run())
-      while (filter.next()) {
-        const double D = shift_from_acceleration(body, by.geometry, filter[a]);
+    while (pipe.next_run())
+      while (pipe.next()) {
+        const double D = shift_from_acceleration(body, by.geometry, pipe[a]);
         beyond += std::abs(D) > body.R;
-        filter.put(D);
+        pipe.put(D);
       }
     if (beyond > 0)
       tool.warn(fmt::format("{} shift{} beyond the radius {} m: the acceleration is noisy", beyond,

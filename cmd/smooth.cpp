@@ -8,7 +8,7 @@
 #include "cli/tool.h"
 #include "selection/selection.h"
 #include "signal/method.h"
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 namespace {
 
@@ -158,14 +158,14 @@ int main(int argc, char** argv) {
     const std::string name = in.columns()[in.column_of(y)].name;
     select.positions = name == "x";
     require_motion(select, name);
-    Filter filter(in, tool.out, history(name, in.equal_times(), select, options));
-    filter.replace(y);
+    RowPipe pipe(in, tool.out, history(name, in.equal_times(), select, options));
+    pipe.replace(y);
     double first = INFINITY, last = -INFINITY;
-    filter.say_why_none([&] {
+    pipe.say_why_none([&] {
       return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
     });
     Told selected(tool, select.rolls);
-    while (filter.next_run()) {
+    while (pipe.next_run()) {
       Selection selection(select);
       auto smoother = make_signal(options);
       std::size_t row = 0;
@@ -174,29 +174,29 @@ int main(int argc, char** argv) {
       const auto begin_roll = [&](double time) {
         const auto& rolls = selection.rolls();
         if (!select.rolls || roll == rolls.size() || time < rolls[roll].kept.from) return;
-        filter.put(smoother->finish());
+        pipe.put(smoother->finish());
         smoother = make_signal(options);
         ++roll;
-        filter.split(row, fmt::format("{} roll {} of {}", in.run_name(), roll, rolls.size()));
+        pipe.split(row, fmt::format("{} roll {} of {}", in.run_name(), roll, rolls.size()));
       };
       const auto take = [&](std::span<const Sample> samples) {
         for (const Sample& s : samples) {
           if (!std::isnan(s.y)) begin_roll(s.t);
-          if (std::isnan(s.y)) filter.drop(row);
-          else if (selects) filter.put(s.y);
-          else filter.put(smoother->push(s.t, s.y));
+          if (std::isnan(s.y)) pipe.drop(row);
+          else if (selects) pipe.put(s.y);
+          else pipe.put(smoother->push(s.t, s.y));
           ++row;
         }
       };
-      while (filter.next()) {
-        first = std::min(first, filter[t]);
-        last = std::max(last, filter[t]);
-        if (all) filter.put(smoother->push(filter[t], filter[y]));
-        else take(selection.push(filter[t], filter[y]));
+      while (pipe.next()) {
+        first = std::min(first, pipe[t]);
+        last = std::max(last, pipe[t]);
+        if (all) pipe.put(smoother->push(pipe[t], pipe[y]));
+        else take(selection.push(pipe[t], pipe[y]));
       }
       take(selection.finish());
       selected.add(selection, in.run_name(), row);
-      filter.put(smoother->finish());
+      pipe.put(smoother->finish());
     }
     selected.say();
     return 0;

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "contact/body.h"
 #include "signal/method.h"
-#include "text/filter.h"
+#include "text/row_pipe.h"
 #include "text/head.h"
 #include "text/number.h"
 

@@ -105,9 +105,9 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& 
   return unknown;
 }
 
-const Comment* choose_names(std::span<const Comment> comments, const UnnamedColumns& columns,
-                            bool first, std::string_view file) {
-  const Comment* chosen = nullptr;
+const HeadLine* choose_names(std::span<const HeadLine> comments, const UnnamedColumns& columns,
+                             bool first, std::string_view file) {
+  const HeadLine* chosen = nullptr;
   CommentedNames names;  // in it
   const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
   for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
@@ -121,13 +121,13 @@ const Comment* choose_names(std::span<const Comment> comments, const UnnamedColu
   }
   if (names.known > 0 && (names.separator == '\t' || names.known == names.names.size()))
     return chosen;
-  const auto refuse = [&](const Comment& comment) {
+  const auto refuse = [&](const HeadLine& comment) {
     fail<InputError>(
         "{}:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one "
         "for each of {}, behind one #; or give the sentence another number of words",
         file, comment.line, shown(comment.text), counted(columns.count, "column"));
   };
-  for (const Comment& comment : comments) {
+  for (const HeadLine& comment : comments) {
     if (&comment == chosen || comment.is_bare()) continue;
     const CommentedNames other = names_in_comment(comment.text, columns);
     const bool may_be_meant = looks_like_names(comment.text) ||
@@ -242,7 +242,7 @@ class HeadReader {
     const std::string_view text = trim(std::string_view(line).substr(2));
     if (text.starts_with("run ")) {  // the `##` lines above belong to a run without rows
       head_.run = trim(text.substr(4));
-      std::erase_if(above_, std::mem_fn(&Comment::is_history));
+      std::erase_if(above_, std::mem_fn(&HeadLine::is_history));
     } else {
       keep(line);
     }
@@ -281,7 +281,7 @@ class HeadReader {
   }
 
   /// The names in a line above the row.
-  std::vector<std::string> names_of(const Comment& line, const UnnamedColumns& columns) const {
+  std::vector<std::string> names_of(const HeadLine& line, const UnnamedColumns& columns) const {
     if (!line.is_bare()) return names_in_comment(line.text, columns).names;
     const char separator = dialect_.separator();
     auto names = split_names(line.text, separator);
@@ -291,19 +291,19 @@ class HeadReader {
 
   /// The header: the last line that is no comment, but for one of units; or a comment where there
   /// is none, or where none has a known name and a comment below has some. Null without one.
-  const Comment* find_header(const UnnamedColumns& columns) const {
+  const HeadLine* find_header(const UnnamedColumns& columns) const {
     std::vector<std::size_t> bare;
     for (std::size_t i = 0; i < above_.size(); ++i)
       if (above_[i].is_bare()) bare.push_back(i);
     if (bare.size() > 1 && are_units_of(names_of(above_[bare.end()[-2]], columns),
                                         names_of(above_[bare.back()], columns)))
       bare.pop_back();
-    const Comment* const last = bare.empty() ? nullptr : &above_[bare.back()];
-    const auto names_columns = [&](const Comment& line) {
+    const HeadLine* const last = bare.empty() ? nullptr : &above_[bare.back()];
+    const auto names_columns = [&](const HeadLine& line) {
       return !line.is_bare() && !line.is_history() &&
              names_in_comment(line.text, columns).known > 0;
     };
-    const auto has_name = [](const Comment& line) {
+    const auto has_name = [](const HeadLine& line) {
       return line.is_bare() && holds_known_name(line.text);
     };
     if (last && (std::ranges::any_of(above_, has_name) ||
@@ -316,19 +316,19 @@ class HeadReader {
   /// in that above them.
   std::vector<std::string> take_names(const UnnamedColumns& columns,
                                       std::vector<std::string>& units) {
-    const Comment* const found = find_header(columns);
+    const HeadLine* const found = find_header(columns);
     if (!found) return {};
-    const Comment header = *found;
+    const HeadLine header = *found;
     if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
     head_.line = header.line;
     note_sorted_history();
     auto names = names_of(header, columns);
     std::size_t first = header.line;  // of the lines that may be one of units
-    for (const Comment& line : above_)
+    for (const HeadLine& line : above_)
       if (line.line < header.line && !line.is_history())
         first = line.text.find(':') == std::string::npos ? line.line : header.line;
-    std::erase_if(above_, [&](const Comment& line) {
+    std::erase_if(above_, [&](const HeadLine& line) {
       if (line.line == header.line) return true;
       if (line.line < first || !units.empty() || line.is_history()) return false;
       auto fields = names_of(line, columns);
@@ -343,10 +343,10 @@ class HeadReader {
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
   /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
   void note_sorted_history() {
-    const auto is_below = [&](const Comment& line) {
+    const auto is_below = [&](const HeadLine& line) {
       return line.is_history() && line.line > head_.line;
     };
-    const auto all = std::ranges::count_if(above_, &Comment::is_history);
+    const auto all = std::ranges::count_if(above_, &HeadLine::is_history);
     const auto below = std::ranges::count_if(above_, is_below);
     if (below > 0 && all > 1)
       above_.push_back({fmt::format("## {}", lines_sorted), above_.back().line});
@@ -354,7 +354,7 @@ class HeadReader {
 
   [[noreturn]] void refuse_without_rows() const {
     if (const auto bare =
-            std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&Comment::is_bare));
+            std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&HeadLine::is_bare));
         bare != above_.rend())
       fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->line,
                        shown(bare->text));
@@ -365,7 +365,7 @@ class HeadReader {
 
   /// The lines that are neither names nor units are comments.
   Head finish() {
-    for (Comment& line : above_) {
+    for (HeadLine& line : above_) {
       note_units(line.text, line.line, head_.said);
       if (line.is_history())
         head_.history.emplace_back(trim(std::string_view(line.text).substr(2)));
@@ -379,7 +379,7 @@ class HeadReader {
   Dialect& dialect_;
   const Head* before_;
   Head head_;
-  std::vector<Comment> above_;     // the lines above the row, but for blank ones
+  std::vector<HeadLine> above_;    // the lines above the row, but for blank ones
   std::set<std::ptrdiff_t> tabs_;  // how many each of them has
 };
 

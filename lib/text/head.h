@@ -35,9 +35,10 @@ struct Layout {
   static Layout of(const std::vector<Column>& line, Sides);
 };
 
-/// A line above the first row that is no row.
-struct Comment {
-  std::string text;  ///< with its marks; bare if it is no comment
+/// A line above the first row of a run: a comment, a `##` line, names, units or a line of a
+/// preamble.
+struct HeadLine {
+  std::string text;  ///< with its marks, if it is a comment
   std::size_t line;  ///< its number in the file
 
   bool is_history() const { return rolling::is_history(text); }
@@ -68,8 +69,8 @@ CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns&)
 /// file (`first`), else the last without known names. Null if there is none. Throws InputError,
 /// unless tabs separate the names or all are known, if another comment may be meant, or if words
 /// between blanks would move known columns of the run before.
-const Comment* choose_names(std::span<const Comment>, const UnnamedColumns&, bool first,
-                            std::string_view file);
+const HeadLine* choose_names(std::span<const HeadLine>, const UnnamedColumns&, bool first,
+                             std::string_view file);
 
 /// Whether the fields of a line are the units of as many names in the line above or below it: none
 /// of them is a known name, and two are known units, or one beside names of which one is known.

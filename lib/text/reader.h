@@ -20,7 +20,7 @@
 
 namespace rolling {
 
-/// Rows of one time are refused, or become one row (see Filter): the first, or the mean.
+/// Rows of one time are refused, or become one row (see RowPipe): the first, or the mean.
 enum class EqualTimes { refused, first, mean };
 
 struct ReaderOptions {

@@ -22,7 +22,7 @@ by_part='
 /rolling::|main|e_log|log@/ { part = "computing" }
 /lagged|ljung_box|breusch_pagan|are_held/ { part = "testing" }
 /rolling::(Reader|Lines|Input|Dialect|Layout)|read_runs|memchr/ { part = "reading" }
-/rolling::(Filter|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
+/rolling::(RowPipe|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
 /read_number|read_any_number|rolling::.*divide|from_chars/ { part = "parsing" }
 /write_number|write_shortest|eight_digits|to_decimal|fmt::/ { part = "formatting" }
 { sum[part] += n; sum["all"] += n }

@@ -19,11 +19,11 @@ std::string in_brackets(const std::vector<std::string>& names) {
 /// The names that are chosen among comments on the lines 1, 2, ..., or what refuses them.
 std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& columns,
                    bool first = true) {
-  std::vector<Comment> comments;
+  std::vector<HeadLine> comments;
   for (const std::string& text : texts) comments.push_back({text, comments.size() + 1});
   std::string all;
   const std::string message = refusal([&] {
-    if (const Comment* const found = choose_names(comments, columns, first, "f"))
+    if (const HeadLine* const found = choose_names(comments, columns, first, "f"))
       all = fmt::format("{} {}", found->line,
                         in_brackets(names_in_comment(found->text, columns).names));
   });

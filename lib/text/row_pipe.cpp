@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,24 +8,24 @@
 
 namespace rolling {
 
-Filter::Filter(Reader& in, Output& out, std::string history)
+RowPipe::RowPipe(Reader& in, Output& out, std::string history)
     : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history)),
       enough_(rows_at_once()) {}
 
-Filter::~Filter() {
+RowPipe::~RowPipe() {
   try {
     if (!writing_) write_rows();
   } catch (...) {  // the error that ended the work is reported, not this one
   }
 }
 
-void Filter::append(Column column) {
+void RowPipe::append(Column column) {
   appended_.push_back(std::move(column));
   enough_ = rows_at_once() * appended_.size();
 }
 
 /// The columns of the present run in the output.
-std::vector<Column> Filter::columns() const {
+std::vector<Column> RowPipe::columns() const {
   std::vector<Column> all = in_.columns();
   for (const Column& column : appended_) {
     for (Column& old : all)
@@ -35,17 +35,17 @@ std::vector<Column> Filter::columns() const {
   return all;
 }
 
-void Filter::hold(std::string_view text, Kind kind) {
+void RowPipe::hold(std::string_view text, Kind kind) {
   texts_.append(text);
   lines_.push_back({static_cast<std::uint32_t>(text.size()), 0, kind});
 }
 
-void Filter::take_comments(const std::vector<std::string>& comments) {
+void RowPipe::take_comments(const std::vector<std::string>& comments) {
   for (const std::string& comment : comments) hold(comment, Kind::comment);
   write_rows();
 }
 
-bool Filter::next_run() {
+bool RowPipe::next_run() {
   write_rows();
   run_begins_ = read_;
   if (in_.next_run()) {
@@ -63,14 +63,14 @@ bool Filter::next_run() {
   return false;
 }
 
-bool Filter::next() {
+bool RowPipe::next() {
   if (!std::exchange(ahead_, false) && !next_row()) return false;
   if (in_.equal_times() != EqualTimes::refused) join_rows();
   return true;
 }
 
 /// Joins the rows of the time of the present one with it.
-void Filter::join_rows() {
+void RowPipe::join_rows() {
   joined_ = {in_.time(), in_[replaced_]};
   double sum = joined_->value;
   for (std::size_t count = 1; next_row(); ++count) {
@@ -85,7 +85,7 @@ void Filter::join_rows() {
   }
 }
 
-bool Filter::next_row() {
+bool RowPipe::next_row() {
   const bool more = in_.next();
   if (!in_.remarks().empty()) take_comments(in_.remarks());
   if (!more) return false;
@@ -97,17 +97,17 @@ bool Filter::next_row() {
   return true;
 }
 
-void Filter::drop(std::size_t i) {
+void RowPipe::drop(std::size_t i) {
   dropped_.push(run_begins_ + i);
   write_rows();
 }
 
-void Filter::split(std::size_t i, const std::string& name) {
+void RowPipe::split(std::size_t i, const std::string& name) {
   splits_.emplace(run_begins_ + i, "## run " + name);
 }
 
 /// Writes the head of a run before its first row.
-void Filter::write_head() {
+void RowPipe::write_head() {
   if (names_.empty()) return;
   if (any_row_) out_.end_line();
   write_comments();
@@ -119,7 +119,7 @@ void Filter::write_head() {
 }
 
 /// Prepares the head of a part of a run: the history of the run, the name of the part.
-void Filter::begin_part() {
+void RowPipe::begin_part() {
   if (splits_.empty() || splits_.front().first > done_) return;
   if (!names_.empty()) {
     names_of_run_ = names_;
@@ -135,7 +135,7 @@ void Filter::begin_part() {
   while (!splits_.empty() && splits_.front().first <= done_) splits_.pop();
 }
 
-void Filter::write_comments() {
+void RowPipe::write_comments() {
   for (const std::string& comment : std::exchange(comments_, {})) {
     out_.text(comment);
     out_.end_line();
@@ -143,8 +143,8 @@ void Filter::write_comments() {
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.
-inline void Filter::write_row(std::string_view text, std::size_t place,
-                              std::span<const double> numbers) {
+inline void RowPipe::write_row(std::string_view text, std::size_t place,
+                               std::span<const double> numbers) {
   char* to = space(out_.line(), text.size() + numbers.size() * (1 + longest_number));
   to = std::copy_n(text.begin(), place, to);
   for (const double number : numbers) {
@@ -158,7 +158,7 @@ inline void Filter::write_row(std::string_view text, std::size_t place,
 
 /// Writes all lines before the first row that lacks a number. The comments of a run without rows,
 /// but for its history, are written with the head of the next run.
-void Filter::write_rows() {
+void RowPipe::write_rows() {
   writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_);

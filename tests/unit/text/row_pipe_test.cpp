@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "text/filter.h"
+#include "text/row_pipe.h"
 
 #include <limits>
 
@@ -29,19 +29,19 @@ std::string filtered(const std::vector<std::string>& texts, const std::vector<Co
     Reader in(options, {"t", "v"});
     Output out;
     const auto v = in.need("v");
-    Filter filter(in, out, "test it");
-    if (append.empty()) filter.replace(v);
-    for (const Column& column : append) filter.append(column);
-    while (filter.next_run()) {
+    RowPipe pipe(in, out, "test it");
+    if (append.empty()) pipe.replace(v);
+    for (const Column& column : append) pipe.append(column);
+    while (pipe.next_run()) {
       std::vector<double> waiting;
       const auto put = [&] {
         for (std::size_t i = 0; i < append.size(); ++i)
-          filter.put(static_cast<double>(i + 1) * waiting.front());
-        if (append.empty()) filter.put(-waiting.front());
+          pipe.put(static_cast<double>(i + 1) * waiting.front());
+        if (append.empty()) pipe.put(-waiting.front());
         waiting.erase(waiting.begin());
       };
-      while (filter.next()) {
-        waiting.push_back(filter[v]);
+      while (pipe.next()) {
+        waiting.push_back(pipe[v]);
         if (waiting.size() > late) put();
       }
       while (!waiting.empty()) put();
@@ -54,17 +54,17 @@ const std::vector<Column> one = {{"y", "m", ""}}, two = {{"y", "m", ""}, {"z", "
 
 }  // namespace
 
-TEST_CASE("filter: a replaced column, whatever stands around it", "[text]") {
+TEST_CASE("row pipe: a replaced column, whatever stands around it", "[text]") {
   CHECK(filtered({"# t v note\n0 1.0 a\n01 2 b\n"}, {}) ==
         "## test it\n# t\tv[m/s]\tnote\n0\t-1\ta\n01\t-2\tb\n");
 }
 
-TEST_CASE("filter: appended columns take their numbers in turn", "[text]") {
+TEST_CASE("row pipe: appended columns take their numbers in turn", "[text]") {
   CHECK(filtered({"# t v\n0 1.0\n1 2.0\n"}, two) ==
         "## test it\n# t\tv[m/s]\ty[m]\tz\n0\t1.0\t1\t2\n1\t2.0\t2\t4\n");
 }
 
-TEST_CASE("filter: however late the numbers come, the rows come out the same", "[text]") {
+TEST_CASE("row pipe: however late the numbers come, the rows come out the same", "[text]") {
   const std::string text =
       "# by hand\n# t v\n0 1\n# among\n1 2\n2 3\n\n# between\n0 4\n1 5\n# last\n";
   for (const auto& columns : {std::vector<Column>{}, one, two})
@@ -74,7 +74,7 @@ TEST_CASE("filter: however late the numbers come, the rows come out the same", "
     }
 }
 
-TEST_CASE("filter: comments keep their place, also after the last row", "[text]") {
+TEST_CASE("row pipe: comments keep their place, also after the last row", "[text]") {
   for (std::size_t late = 0; late < 4; ++late) {
     INFO(late << " late");
     CHECK(
@@ -86,7 +86,7 @@ TEST_CASE("filter: comments keep their place, also after the last row", "[text]"
   }
 }
 
-TEST_CASE("filter: one blank line between runs, none before the first and after the last",
+TEST_CASE("row pipe: one blank line between runs, none before the first and after the last",
           "[text]") {
   CHECK(filtered({"\n\n0 1\n\n\n\n0 2\n\n\n"}, one) ==
         "## run FILE 1\n## test it\n# t[s]\tv[m/s]\ty[m]\n0\t1\t1\n\n"
@@ -99,7 +99,7 @@ TEST_CASE("filter: one blank line between runs, none before the first and after 
         "## run FILE 4\n## test it\n# t\tv[m/s]\ty[m]\n0\t3\t3\n");
 }
 
-TEST_CASE("filter: the name of a computed column is its own, the old one becomes NAME_in",
+TEST_CASE("row pipe: the name of a computed column is its own, the old one becomes NAME_in",
           "[text]") {
   CHECK(filtered({"# t[s] v[m/s] y[km]\n0 1 2\n"}, one) ==
         "## test it\n# t[s]\tv[m/s]\ty_in[km]\ty[m]\n0\t1\t2\t1\n");
@@ -107,19 +107,19 @@ TEST_CASE("filter: the name of a computed column is its own, the old one becomes
         "## test it\n# y_in\tv[m/s]\ty_in_in\ty[m]\n0\t1\t2\t1\n");
 }
 
-TEST_CASE("filter: each run goes out with its own history, columns and units", "[text]") {
+TEST_CASE("row pipe: each run goes out with its own history, columns and units", "[text]") {
   CHECK(filtered({"## a b c\n# t v\n0 1\n", "# w v[km/h] t[ms]\n0 36 7\n"}, one) ==
         "## run FILE\n## a b c\n## test it\n# t\tv[m/s]\ty[m]\n0\t1\t1\n\n"
         "## run FILE\n## test it\n# w\tv[m/s]\tt[ms]\ty[m]\n0\t10\t7\t10\n");
 }
 
-TEST_CASE("filter: what a run without rows had to say goes before the next one, its history not",
+TEST_CASE("row pipe: what a run without rows had to say goes before the next one, its history not",
           "[text]") {
   CHECK(filtered({"# one\n## a\n# t v\n0 NaN\n# in it\n\n# two\n0 2\n\n# three\n0 NaN\n"}, one) ==
         "# one\n# in it\n## run FILE 2\n# two\n## test it\n# t\tv[m/s]\ty[m]\n0\t2\t2\n# three\n");
 }
 
-TEST_CASE("filter: a result that is not finite is refused, and its row is not begun", "[text]") {
+TEST_CASE("row pipe: a result that is not finite is refused, and its row is not begun", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   CHECK(printed([&] {
@@ -127,13 +127,13 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
           Output out;
           in.need("v");
           message = refusal([&] {
-            Filter filter(in, out, "test it");
-            filter.append({"y", "", ""});
-            filter.next_run();
-            filter.next();
-            filter.put(1);
-            filter.next();
-            filter.put(std::numeric_limits<double>::infinity());
+            RowPipe pipe(in, out, "test it");
+            pipe.append({"y", "", ""});
+            pipe.next_run();
+            pipe.next();
+            pipe.put(1);
+            pipe.next();
+            pipe.put(std::numeric_limits<double>::infinity());
           });
           out.drop_line();
           out.flush();
@@ -141,7 +141,7 @@ TEST_CASE("filter: a result that is not finite is refused, and its row is not be
   CHECK(message == "the result is not a finite number");
 }
 
-TEST_CASE("filter: rows that could not be written are not written later", "[text]") {
+TEST_CASE("row pipe: rows that could not be written are not written later", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   CHECK(printed([&] {
           Reader in({.files = {file.name()}}, {"t", "v"});
@@ -150,13 +150,13 @@ TEST_CASE("filter: rows that could not be written are not written later", "[text
           in.need("v");
           std::string message;
           {
-            Filter filter(in, out, "test it");
-            filter.append({"y", "", ""});
-            filter.next_run();
-            filter.next();
+            RowPipe pipe(in, out, "test it");
+            pipe.append({"y", "", ""});
+            pipe.next_run();
+            pipe.next();
             {
               const Redirect full(STDOUT_FILENO, "/dev/full");
-              message = refusal([&] { filter.put(1); });
+              message = refusal([&] { pipe.put(1); });
             }
           }
           CHECK(message == "standard output: No space left on device");
@@ -164,60 +164,60 @@ TEST_CASE("filter: rows that could not be written are not written later", "[text
         }) == "");
 }
 
-TEST_CASE("filter: rows left out before the first run with a history", "[text]") {
+TEST_CASE("row pipe: rows left out before the first run with a history", "[text]") {
   const TemporaryFile file("0 1\n1 2\n# between\n\n0 3\n1 4\n2 5\n");
   CHECK(base_names_as_FILE(printed([&] {
           Reader in({.files = {file.name()}}, {"t", "v"});
           Output out;
           const auto v = in.need("v");
-          Filter filter(in, out, "test it");
-          filter.replace(v);
-          filter.next_run();
-          for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
-          filter.next_run();
-          while (filter.next())
+          RowPipe pipe(in, out, "test it");
+          pipe.replace(v);
+          pipe.next_run();
+          for (std::size_t i = 0; pipe.next(); ++i) pipe.drop(i);
+          pipe.next_run();
+          while (pipe.next())
             ;
-          filter.drop(1);
-          filter.put(30);
-          filter.put(50);
-          filter.next_run();
+          pipe.drop(1);
+          pipe.put(30);
+          pipe.put(50);
+          pipe.next_run();
           out.flush();
         })) == "# between\n## run FILE 2\n## test it\n# t[s]\tv[m/s]\n0\t30\n2\t50\n");
 }
 
-TEST_CASE("filter: no row left is an error of its own", "[text]") {
+TEST_CASE("row pipe: no row left is an error of its own", "[text]") {
   const TemporaryFile file("0 1\n1 2\n");
   std::string message;
   printed([&] {
     Reader in({.files = {file.name()}}, {"t", "v"});
     Output out;
-    Filter filter(in, out, "");
+    RowPipe pipe(in, out, "");
     message = refusal([&] {
-      while (filter.next_run())
-        for (std::size_t i = 0; filter.next(); ++i) filter.drop(i);
+      while (pipe.next_run())
+        for (std::size_t i = 0; pipe.next(); ++i) pipe.drop(i);
     });
   });
   CHECK(message == "no rows are left");
 }
 
-TEST_CASE("filter: no row with all its readings is an error", "[text]") {
+TEST_CASE("row pipe: no row with all its readings is an error", "[text]") {
   const TemporaryFile file("# t v\n0 NaN\n\n1 NaN\n");
   std::string message;
   printed([&] {
     Reader in({.files = {file.name()}}, {});
     Output out;
     in.need("v");
-    Filter filter(in, out, "test it");
-    filter.append({"y", "", ""});
+    RowPipe pipe(in, out, "test it");
+    pipe.append({"y", "", ""});
     message = refusal([&] {
-      while (filter.next_run())
-        while (filter.next()) filter.put(1);
+      while (pipe.next_run())
+        while (pipe.next()) pipe.put(1);
     });
   });
   CHECK(message == file.name() + ": no rows: a needed reading is missing in every one");
 }
 
-TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {
+TEST_CASE("row pipe: ten thousand rows that wait for a late filter", "[text]") {
   std::string text, expected = "## test it\n# t[s]\tv[m/s]\ty[m]\n";
   for (int i = 0; i < 10000; ++i) {
     const std::string n = std::to_string(i);
@@ -227,7 +227,7 @@ TEST_CASE("filter: ten thousand rows that wait for a late filter", "[text]") {
   CHECK((filtered({text}, one, 3000) == expected));
 }
 
-TEST_CASE("filter: rows left out behind one that waits", "[text]") {
+TEST_CASE("row pipe: rows left out behind one that waits", "[text]") {
   std::string text;
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + " 1\n";
   const TemporaryFile file("# a\n9 9\n\n" + text);
@@ -235,19 +235,19 @@ TEST_CASE("filter: rows left out behind one that waits", "[text]") {
     Reader in({.files = {file.name()}}, {"t", "v"});
     Output out;
     const auto v = in.need("v");
-    Filter filter(in, out, "test it");
-    filter.replace(v);
-    filter.next_run();
-    filter.next();
-    filter.next_run();
-    while (filter.next())
+    RowPipe pipe(in, out, "test it");
+    pipe.replace(v);
+    pipe.next_run();
+    pipe.next();
+    pipe.next_run();
+    while (pipe.next())
       ;
     for (std::size_t i = 0; i < 100; ++i)
-      if (i != 3 && i != 98) filter.drop(i);
-    filter.put(7);
-    filter.put(8);
-    filter.put(9);
-    filter.next_run();
+      if (i != 3 && i != 98) pipe.drop(i);
+    pipe.put(7);
+    pipe.put(8);
+    pipe.put(9);
+    pipe.next_run();
     out.flush();
   });
   CHECK(written.find("\n9\t7\n") != std::string::npos);

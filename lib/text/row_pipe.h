@@ -2,7 +2,7 @@
 // The input and the output of a tool that adds computed numbers to each row, or replaces a
 // column. A row is kept as text until its numbers have been computed, which may be later (a
 // window that looks ahead). Every byte that is not computed is written as it was read. Each run is
-// written with its own head: its name, comments and history, the line of this filter, the names.
+// written with its own head: its name, comments and history, the line of this tool, the names.
 //
 // Complete rows are formatted 32 at a time: the conversions of several numbers overlap in the
 // processor, which those of the digits of one number cannot.
@@ -24,18 +24,18 @@
 
 namespace rolling {
 
-/// The `##` line of a filter if --use gives another column the name that earlier lines contain.
+/// The `##` line of a tool if --use gives another column the name that earlier lines contain.
 inline constexpr std::string_view columns_renamed = "columns renamed";
 
-class Filter {
+class RowPipe {
  public:
-  /// `history` is the `##` line, without the marks, that says what this filter does; empty if it
+  /// `history` is the `##` line, without the marks, that says what this tool does; empty if it
   /// changes no number.
-  Filter(Reader& in, Output& out, std::string history);
+  RowPipe(Reader& in, Output& out, std::string history);
   /// If an Error ends the work early, writes the rows that are complete.
-  ~Filter();
-  Filter(const Filter&) = delete;
-  Filter& operator=(const Filter&) = delete;
+  ~RowPipe();
+  RowPipe(const RowPipe&) = delete;
+  RowPipe& operator=(const RowPipe&) = delete;
   /// Another line than that of the runs before. For the present run before the first of its
   /// numbers.
   void set_history(const std::string& line) { history_ = "## " + line; }
