@@ -102,10 +102,20 @@ void give_road(Tool& tool, Bodies& bodies, const Road* road, const FitOptions& o
   if (!is_trajectory(route)) tool.refuse({"height"}, "is for the routes velocity and position");
 }
 
+/// Refuses a limit of speed above all rows.
+void refuse_slow(const std::vector<Run>& runs, const FitOptions& options) {
+  double fastest = NAN;
+  for (const Run& run : runs)
+    for (const double v : run.v) fastest = std::fmax(fastest, std::abs(v));
+  if (fastest < options.min_speed)
+    fail<OptionError>("--min-speed {}: the fastest row has {:.3g} m/s", options.min_speed, fastest);
+}
+
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
 /// names it and the others are fitted all the same.
 std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<Run> runs,
                                const FitOptions& options, bool each) {
+  refuse_slow(runs, options);
   std::vector<FitOfRuns> fits;
   if (each)
     for (Run& run : runs) fits.push_back({route, {std::move(run)}});
@@ -196,6 +206,8 @@ std::vector<std::string> order_of_columns(const Tool& tool, std::optional<Route>
 
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
+  if (in.find("sigma_a") || in.find("sigma_d0"))
+    fail<InputError>("these are rows of fitpower: --route fits joins them");
   if (in.find("D")) return Route::shift;
   if (in.find("x") || !in.find("v")) return Route::position;
   return Route::velocity;
@@ -210,15 +222,6 @@ std::string why_left_out(Route route, const FitOptions& options) {
     why = "they lie beside an end or a lost reading, where a sensor's speeds are not to be trusted";
   if (options.min_speed > 0) add_item(why, "slower than --min-speed", ", or ");
   return why;
-}
-
-/// Refuses a limit of speed above all rows.
-void refuse_slow(const std::vector<Run>& runs, const FitOptions& options) {
-  double fastest = NAN;
-  for (const Run& run : runs)
-    for (const double v : run.v) fastest = std::fmax(fastest, std::abs(v));
-  if (fastest < options.min_speed)
-    fail<OptionError>("--min-speed {}: the fastest row has {:.3g} m/s", options.min_speed, fastest);
 }
 
 }  // namespace
@@ -256,8 +259,6 @@ int main(int argc, char** argv) {
       return 0;
     }
     Reader& in = tool.read(order_of_columns(tool, given_route));
-    if (in.find("sigma_a") || in.find("sigma_d0"))
-      fail<InputError>("these are rows of fitpower: --route fits joins them");
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
@@ -270,7 +271,6 @@ int main(int argc, char** argv) {
     auto runs =
         read_runs(tool, in, route, road && route == Route::velocity && bodies.begins.empty());
     doubt_wind(tool, options, each ? 1 : runs.size());
-    refuse_slow(runs, options);
     if (!each) warn_of_copies(tool, route, runs);
     if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
     bodies.give_to(runs);
