@@ -7,7 +7,7 @@ static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
-        mutate coverage bad-runs peers work-precision work-precision-signal bench lint
+        mutate coverage bad-runs extremes peers work-precision work-precision-signal bench lint
 
 -include $(patsubst %.o,%.d,$(call object,$(test) \
            $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
@@ -192,6 +192,11 @@ coverage: build/coverage build/bench/troubles
 bad-runs: all
 	@PATH="$$PWD/bin:$$PATH" tests/bench/bad-runs.sh $(call short,2) | \
 	  tee $(call short,build,samples)/bad-runs.txt
+
+# The errors of simulate at the ends of what can be asked, against 30 digits: some seconds.
+extremes: all
+	@PATH="$$PWD/bin:$$PATH" tests/bench/extremes.py $(call short,short) | \
+	  tee $(call short,build,samples)/extremes.txt
 
 # Error against run time of all methods: some minutes; figures where gnuplot is installed. See
 # tests/bench/README.md.

@@ -45,6 +45,14 @@ for goal in $goals; do
         has build/peers.txt '^Rubber1 +1[1-6][.0-9]* / 1[1-6][.0-9]* +[4-9]'
         break
       done ;;
+    extremes)
+      python3 -c 'import mpmath' 2>/dev/null || continue
+      run extremes
+      # Rounding alone; with a memory and near a balance of the slope there is more.
+      awk -F '\t' '/^#/ { next } { rows++ } $5 != "" || $4 > 5 { exit 1 }
+        $1 !~ /memory|balance/ && ($2 > 1e-15 || $3 > 1e-15) { exit 1 }
+        /held/ && !/not held/ && !/v = 0.0e\+00/ { exit 1 }
+        END { if (rows < 8) exit 1 }' build/extremes.txt || complain "$(cat build/extremes.txt)" ;;
     work-precision)
       run work-precision
       awk -F '\t' '$1 == "v" && NF == 2 { found = $2 } END { exit !(found > 0 && found < 1e-13) }' \
