@@ -7,7 +7,8 @@ static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
-        mutate coverage bad-runs extremes peers work-precision work-precision-signal bench lint
+        mutate coverage bad-runs extremes peers results work-precision work-precision-signal bench \
+        lint
 
 -include $(patsubst %.o,%.d,$(call object,$(test) \
            $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
@@ -187,6 +188,11 @@ coverage: build/coverage build/bench/troubles
 	@{ echo 'Of build/coverage and build/bench/troubles, run by make coverage:'; \
 	  build/coverage $(call short,2); build/bench/troubles $(call short,2); } | \
 	  tee $(call short,build,samples)/coverage.txt
+
+# The last lines of whole suites on this system, kept in tests/results.txt; hours.
+RESULTS ?= check check-clang check-libcxx check-arm64 sanitize
+results:
+	@tests/results.sh $(RESULTS)
 
 # What `fitpower --check` says of runs with one thing wrong: two minutes.
 bad-runs: all

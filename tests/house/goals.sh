@@ -68,7 +68,7 @@ for goal in $goals; do
       run work-precision-signal
       has build/work-precision/signal.tsv '^CR.savgol' ;;
     # These need minutes, another compiler, another machine, or run this suite.
-    bench | mutate | lint | fuzz | sanitize | coverage-lines | check-*) ;;
+    results | bench | mutate | lint | fuzz | sanitize | coverage-lines | check-*) ;;
     static-arm64) ;;
     *) complain "the goal $goal is not run here" ;;
   esac

@@ -1,0 +1,26 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# results.sh GOAL...: runs these goals of make, and puts the last line of each suite that ran into
+# tests/results.txt, in the place of what this system had there.
+set -u
+export LC_ALL=C
+unset CDPATH
+cd "$(dirname "$0")/.." || exit 2
+wrong=0
+system=$(. /etc/os-release 2>/dev/null && echo "$PRETTY_NAME" || uname -sr)
+system+=", $(uname -m), $(${CXX:-g++} --version | head -n 1)"
+scratch=$(mktemp -d) || exit 2
+trap 'rm -rf "$scratch"' EXIT
+for goal; do
+  make "$goal" >"$scratch/said" 2>&1
+  status=$?
+  last=$(grep -E '^[0-9]+ passed, [0-9]+ failed' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
+  [ $status = 0 ] || { wrong=1 && tail -n 20 "$scratch/said" && last+=" (make: exit status $status)"; }
+  version=$(bin/smooth --version | cut -d ' ' -f 3)
+  touch tests/results.txt
+  {
+    grep -vF "make $goal: $system: " tests/results.txt
+    echo "make $goal: $system: $version: $last"
+  } | sort >"$scratch/results" && cp "$scratch/results" tests/results.txt
+done
+exit $wrong
