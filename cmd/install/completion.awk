@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The completion of a tool, made from its --help:
 #   TOOL --help | awk -v shell=bash -v name=TOOL -f completion.awk
-# shell is bash or zsh. The type of an option says which values it has: {one,of,these}, a FILE, or
+# shell is bash, zsh or fish. The type of an option says which values it has: {one,of,these}, a FILE, or
 # what only the user knows.
 
 /^Usage: / { operands = /FILE/ }
@@ -77,4 +77,21 @@ function zsh(    i, part, words, value) {
   }
 }
 
-END { if (shell == "zsh") zsh(); else bash() }
+function fish(    i, part, words, last) {
+  print "# fish completion of " name "(1), made from its --help"
+  if (!operands) print "complete -c " name " -f"
+  for (i = 1; i <= count; ++i) {
+    last = split(names[i], part, ",")
+    words = help[i]
+    gsub(/[\\']/, "\\\\&", words)
+    print "complete -c " name (last == 2 ? " -s " substr(part[1], 2) : "") " -l " substr(part[last], 3) \
+      (type[i] == "" ? "" : type[i] == "FILE" ? " -r -F" : " -x") \
+      (values(i) == "" ? "" : " -a '" values(i) "'") " -d '" words "'"
+  }
+}
+
+END {
+  if (shell == "zsh") zsh()
+  else if (shell == "fish") fish()
+  else bash()
+}

@@ -67,10 +67,11 @@ stage_all() {
     # shellcheck disable=SC2086  # tools are words
     cmd/install/rename-page.sh "$prefix" $tools <"man/$tool.1" |
       stage 644 "$mandir/man1/$prefix$tool.1"
-    for shell in bash:bash-completion/completions/ zsh:zsh/site-functions/_; do
+    for shell in bash:bash-completion/completions/ zsh:zsh/site-functions/_ \
+      fish:fish/vendor_completions.d/; do
       "bin/$tool" --help |
         awk -v shell="${shell%%:*}" -v name="$prefix$tool" -f cmd/install/completion.awk |
-        stage 644 "$datadir/${shell#*:}$prefix$tool"
+        stage 644 "$datadir/${shell#*:}$prefix$tool$([ "${shell%%:*}" != fish ] || echo .fish)"
     done
   done
   for page in man/*.[57]; do

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The completions offer what --help lists: in bash (the function, called as bash calls it, and typed
-# at a terminal) and in zsh.
+# at a terminal), in zsh and in fish.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -16,19 +16,31 @@ offered() {
   bash --norc -c 'source "$1"; shift; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); $(complete -p "$1" | sed "s/.* -F \([^ ]*\) .*/\1/")
     printf "%s\n" "${COMPREPLY[@]}" | sort | xargs' - "$scratch/$1" "$@"
 }
+fish_offers() {  # TOOL LINE: what fish offers for its last word, sorted, on one line
+  HOME=$scratch fish --private -c "source '$scratch/$1.fish'; complete -C '$2'" | cut -f 1 | sort | xargs
+}
 expect() { [ "$1" = "$2" ] || complain "$3: '$1' instead of '$2'"; }
 
 for source in cmd/*.cpp; do
   tool=$(basename "$source" .cpp)
-  for shell in bash zsh; do
-    "bin/$tool" --help | awk -v shell=$shell -v name="$tool" -f cmd/install/completion.awk >"$scratch/$([ $shell = bash ] || echo _)$tool"
+  for shell in bash zsh fish; do
+    case $shell in bash) file=$tool ;; zsh) file=_$tool ;; fish) file=$tool.fish ;; esac
+    "bin/$tool" --help | awk -v shell=$shell -v name="$tool" -f cmd/install/completion.awk >"$scratch/$file"
   done
   bash -n "$scratch/$tool" || complain "$tool: bash does not read it"
   # Independently of the program above: whatever begins with -- in --help before its explanation.
   long=$("bin/$tool" --help | sed -nE 's/^  (-.,)?(--[a-z0-9-]+).*/\2/p' | sort | xargs)
   [ "$(wc -w <<<"$long")" -ge 8 ] || complain "$tool --help: only $long"
   expect "$(offered "$tool" --)" "$long" "$tool --"
+  ! command -v fish >/dev/null || expect "$(fish_offers "$tool" "$tool --")" "$long" "fish, $tool --"
 done
+if command -v fish >/dev/null; then
+  expect "$(fish_offers smooth 'smooth -M ')" 'mean median savgol' 'fish, smooth -M'
+  expect "$(fish_offers smooth 'smooth --method=s')" '--method=savgol' 'fish, smooth --method=s'
+  expect "$(fish_offers smooth 'smooth --width ')" '' 'fish, smooth --width'
+  expect "$(fish_offers simulate 'simulate ')" '' 'fish, simulate takes no file'
+  expect "$(fish_offers energy-ledger 'energy-ledger --scene samples/SF.t')" samples/SF.toml 'fish, --scene'
+fi
 expect "$(offered smooth -M '')" 'mean median savgol' 'smooth -M'
 expect "$(offered smooth input --method me)" 'mean median' 'smooth --method me'
 expect "$(offered smooth --method =)" 'mean median savgol' 'smooth --method='

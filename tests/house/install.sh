@@ -44,6 +44,8 @@ for prefix in '' roll-; do
       complain "zsh does not complete $tool"
     grep -q "^complete .* $tool " "$root/share/bash-completion/completions/$tool" ||
       complain "bash does not complete $tool"
+    grep -q "^complete -c $tool " "$root/share/fish/vendor_completions.d/$tool.fish" ||
+      complain "fish does not complete $tool"
     page=$root/share/man/man1/$tool.1
     [ "$(grep '^\.Dt' "$page")" = ".Dt $(upper "$tool") 1" ] ||
       complain "the title of $page is $(grep '^\.Dt' "$page")"

@@ -51,7 +51,7 @@ everything() {
   pushd "$scratch/copy" >/dev/null || exit 2
   samples/table1.sh >"$2/table1" || complain table1.sh
   for tool in bin/*; do
-    for kind in bash zsh; do
+    for kind in bash zsh fish; do
       "$tool" --help | awk -v shell=$kind -v name="${tool#bin/}" -f cmd/install/completion.awk \
         >"$2/$kind-${tool#bin/}"
     done
