@@ -1,12 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# install.sh install | uninstall: the tools in TOOLS, their pages and completions, and the samples,
-# into bindir, mandir, datadir and docdir below DESTDIR; PROGRAM_PREFIX goes before the name of each
-# tool. All come from the environment; `make install` sets them.
+# install.sh install | uninstall: the tools in TOOLS, their pages and completions, the samples and
+# CITATION.cff, into bindir, mandir, datadir and docdir below DESTDIR; PROGRAM_PREFIX goes before the
+# name of each tool. All come from the environment; `make install` sets them.
 #
-# docdir/installed-files says what was installed, a line `CKSUM SIZE PATH` for each file. `install`
-# replaces a file only if it is in that list and as it was installed; if a single one is not,
-# nothing is written. `uninstall` removes what is in the list and as it was installed.
+# docdir/installed-files says what was installed, a line `CKSUM SIZE PATH` for each file, and `0 0 PATH/`
+# for each folder that was made. `install` replaces a file only if it is in that list and as it was
+# installed; if a single one is not, nothing is written. `uninstall` removes what is in the list and as
+# it was installed, and the folders that are then empty.
 set -eu
 export LC_ALL=C
 unset CDPATH
@@ -100,13 +101,34 @@ remove_listed() {
   cut -d ' ' -f 3- "$list" >"$scratch/listed"
   for other in "$lists"*; do [ "$other" = "$list" ] || cut -d ' ' -f 3- "$other"; done \
     >"$scratch/of-others"
-  while IFS= read -r path; do
+  grep '/$' "$scratch/listed" | sort -r >"$scratch/old-folders" || true
+  grep -v '/$' "$scratch/listed" | while IFS= read -r path; do
     ! printf '%s\n' "$path" | grep -qxF -f - "$1" "$scratch/of-others" || continue
     exists "$root$path" || continue
     if as_installed "$path"; then rm -f "$root$path"
     else printf 'install: %s is not as it was installed: it stays\n' "$root$path" >&2
     fi
-  done <"$scratch/listed"
+  done
+}
+# Removes the folders of the list, the innermost first, unless they hold something.
+remove_folders() {
+  [ ! -f "$scratch/old-folders" ] ||
+    while IFS= read -r folder; do rmdir "$root$folder" 2>/dev/null || true; done <"$scratch/old-folders"
+}
+# The folders that have to be made for these files, and those that were made before or are docdir's.
+folders() {
+  while IFS= read -r path; do
+    folder=${path%/*}
+    while [ -n "$folder" ]; do
+      printf '%s\n' "$folder"
+      folder=${folder%/*}
+    done
+  done <"$1" | sort -u | while IFS= read -r folder; do
+    case $folder/ in "$docdir"/*) ;; *)
+      [ ! -d "$root$folder" ] || cat "$lists"* 2>/dev/null | grep -qxF "0 0 $folder/" || continue ;;
+    esac
+    printf '0 0 %s/\n' "$folder"
+  done
 }
 
 install_all() {
@@ -126,10 +148,13 @@ install_all() {
     exit 1
   fi
   remove_listed "$scratch/files"
+  remove_folders
+  folders "$scratch/files" >"$scratch/folders"
   # The list comes first: where a copy fails, what is there can be removed.
   mkdir -p "$root$docdir"
-  while IFS= read -r path; do described "$scratch/stage$path" "$path"; done <"$scratch/files" \
-    >"$list"
+  while IFS= read -r path; do described "$scratch/stage$path" "$path"; done <"$scratch/files" |
+    cat - "$scratch/folders" >"$scratch/list"
+  cp "$scratch/list" "$list"
   while IFS= read -r path; do
     mkdir -p "$root${path%/*}"
     rm -f "$root$path"  # it may run, or be a link
@@ -146,9 +171,7 @@ uninstall_all() {
   : >"$scratch/nothing"
   remove_listed "$scratch/nothing"
   rm -f "$list"
-  # Folders of the samples, the innermost first, unless they hold something else.
-  find "$root$docdir/samples" -depth -type d -exec rmdir {} \; 2>/dev/null || true
-  rmdir "$root$docdir" 2>/dev/null || true
+  remove_folders
   printf 'removed what was listed in %s\n' "$list"
 }
 

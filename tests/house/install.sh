@@ -83,6 +83,10 @@ for prefix in '' roll-; do
     complain "after uninstall there is $left"
   [ "$(ls -A "$root/share/doc/rolling")" = mine ] || complain "uninstall leaves folders of samples"
   [ -e "$stage/a/mine" ] || complain "uninstall deletes a stranger's folder"
+  # Of folders those that hold what others have put there.
+  folders=$(cd "$root" && find . -type d | sort | xargs)
+  [ "$folders" = '. ./bin ./share ./share/doc ./share/doc/rolling ./share/man ./share/man/man1' ] ||
+    complain "after uninstall there are $folders"
   [ ! -e hit ] && [ ! -e "$scratch/hit" ] || { rm -f hit; complain "a name was run as code"; }
 done
 # Without a PREFIX everything goes below /usr/local.
@@ -134,7 +138,7 @@ run_there install r- && run_there uninstall || complain "two prefixes: $(cat "$s
 [ -x "$scratch/there/b/r-smooth" ] && [ ! -e "$scratch/there/b/smooth" ] &&
   [ -s "$scratch/there/doc/samples/CR.csv" ] || complain "of two prefixes: $(ls "$scratch/there/b")"
 run_there uninstall r-
-[ -z "$(find "$scratch/there" -type f)" ] && [ ! -e "$scratch/there/doc" ] ||
+[ -z "$(ls -A "$scratch/there")" ] ||
   complain "of two: $(find "$scratch/there")"
 
 # A stranger's program or link of the same name, and a sample that was changed: nothing is written;
