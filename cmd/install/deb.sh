@@ -42,6 +42,7 @@ Upstream-Name: rolling
 
 Files: *
 Copyright: $(date -u -d "@$moment" +%Y) the authors of rolling
+Comment: The programs contain code of the headers of CLI11 and fmt, see NOTICES.
 License: GPL-3.0+
  This program is free software: you can redistribute it and/or modify it under the terms of the
  GNU General Public License as published by the Free Software Foundation, either version 3 of the
@@ -49,6 +50,7 @@ License: GPL-3.0+
  .
  On Debian systems its text is in /usr/share/common-licenses/GPL-3.
 END
+cmd/install/parts.sh shared "$doc"
 gzip -9n >"$doc/changelog.gz" <<END
 rolling ($version) unstable; urgency=medium
 
@@ -69,6 +71,7 @@ Maintainer: $maintainer
 Installed-Size: $(find "$tree/usr" -printf '%y %s\n' |
   awk '{ k += $1 == "f" ? int(($2 + 1023) / 1024) : 1 } END { print k }')
 Depends: ${depends#shlibs:Depends=}
+Recommends: gnuplot-nox | gnuplot
 Section: science
 Priority: optional
 Description: from motion-sensor data to the physics of a rolling body

@@ -80,6 +80,7 @@ stage_all() {
     cmd/install/rename-page.sh "$prefix" $tools <"$page" |
       stage 644 "$mandir/man${page##*.}/${page#man/}"
   done
+  awk -f cmd/install/citation.awk samples/rolling.bib | stage 644 "$docdir/CITATION.cff"
   samples >"$scratch/samples"
   while IFS= read -r sample; do
     mode=644

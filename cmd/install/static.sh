@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # static.sh ARCHITECTURE: makes build/rolling-VERSION-linux-ARCHITECTURE.tar.xz of the static
-# programs in TOOLS, with pages, completions and samples. Like sources give like bytes.
+# programs in TOOLS, with pages, completions, samples, and what they contain of others. Like sources give like bytes.
 set -eu
 export LC_ALL=C
 unset CDPATH
@@ -14,6 +14,7 @@ bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \
   DESTDIR=$folder/$name cmd/install/install.sh install >/dev/null
 rm "$folder/$name/installed-files"
 cp README.md LICENSE "$folder/$name"
+cmd/install/parts.sh static "$folder/$name"
 chmod -R u=rwX,go=rX "$folder"
 tar --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
   --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf - "$name" | xz -T1 >"$folder/archive"

@@ -30,17 +30,24 @@ for library in libc6 libstdc++6 libgsl libfmt; do
   grep -q "$library" <<<"$depends" || complain "it does not depend on $library: $depends"
 done
 
+[[ $(dpkg-deb --field "$package" Recommends) == *gnuplot* ]] || complain "it does not recommend gnuplot"
 dpkg-deb --extract "$package" "$scratch/tree"
 make install DESTDIR="$scratch/stage" PREFIX=/usr >"$scratch/made" 2>&1 ||
   { cat "$scratch/made" && exit 1; }
 files() { (cd "$1" && find . ! -type d | grep -v installed-files | sed 's/\.gz$//; s|zsh/vendor-completions|zsh/site-functions|' | sort); }
-diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright)$') ||
+diff <(files "$scratch/stage") <(files "$scratch/tree" | grep -vE '/(changelog|copyright|NOTICES|parts.cdx.json)$') ||
   complain "its files are not those of make install"
 for tool in "$scratch"/tree/usr/bin/*; do
   "$tool" --version | grep -qF " $version " || complain "$tool does not run"
 done
 (cd "$scratch/tree" && dpkg-deb --info "$OLDPWD/$package" md5sums | md5sum --quiet -c) ||
   complain "its md5sums"
+
+doc=$scratch/tree/usr/share/doc/rolling
+for name in CLI11 fmt; do
+  grep -q "\"name\": \"$name\"" "$doc/parts.cdx.json" && grep -q "^==== $name " "$doc/NOTICES" ||
+    complain "$name is no part of it"
+done
 
 if command -v lintian >/dev/null; then
   lintian --fail-on error,warning "$package" 2>/dev/null || complain "lintian"

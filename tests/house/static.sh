@@ -24,12 +24,29 @@ for tool in "$root"/bin/*; do
   if grep -qF "$PWD" "$tool"; then complain "$tool names the folder in which it was built"; fi
   readelf -ld "$tool" | grep -E 'INTERP|NEEDED' && complain "$tool is not static"
 done
-for file in README.md LICENSE samples/table1.sh share/man/man1/smooth.1 share/man/man7/rolling-fits.7 \
-  share/bash-completion/completions/smooth share/zsh/site-functions/_smooth; do
+for file in README.md LICENSE NOTICES CITATION.cff samples/table1.sh share/man/man1/smooth.1 share/man/man7/rolling-fits.7 \
+  share/bash-completion/completions/smooth share/zsh/site-functions/_smooth \
+  share/fish/vendor_completions.d/smooth.fish; do
   [ -s "$root/$file" ] || complain "$file is missing"
 done
 [ "$(find "$root" -type f ! -path "$root/bin/*" -newermt '2020-09-13 12:27' | wc -l)" = 0 ] ||
   complain "files of another date"
+
+# The list of parts has the versions of Debian's packages and of --version; each has its notice.
+parts=$(sed -nE 's/.*"type": "library", "name": "([^"]*)", "version": "([^"]*)".*/\1 \2/p' "$root/parts.cdx.json")
+while read -r name package; do
+  version=$(dpkg-query -W -f '${Version}' "$package") || continue
+  listed=$(sed -n "s/^$name //p" <<<"$parts")
+  [[ -n $listed && ( $version == "$listed" || $version == "$listed"[!0-9.]* ) ]] ||
+    complain "the list has $name $listed, and it is $version"
+  grep -qF "==== $name $listed," "$root/NOTICES" || complain "no notice of $name $listed"
+done < <(printf '%s\n' 'CLI11 libcli11-dev' 'fmt libfmt-dev' 'GSL libgsl-dev' 'glibc libc6-dev' \
+  "libstdc++ libstdc++-$(g++ -dumpversion)-dev")
+for words in 'Henry Schreiner' 'Victor Zverovich' 'GNU LESSER GENERAL PUBLIC' 'RUNTIME LIBRARY EXCEPTION'; do
+  grep -q "$words" "$root/NOTICES" || complain "the notices lack $words"
+done
+! command -v python3 >/dev/null || python3 -m json.tool "$root/parts.cdx.json" >/dev/null ||
+  complain "parts.cdx.json is no JSON"
 
 # busybox, with the libraries that it may need: the tools need none.
 # That of Debian has an awk without powers and roots: where it is so, the system's awk comes along.
