@@ -59,7 +59,7 @@ refresh() {
 # Whether a command draws where there is no gnuplot, or runs a script of the samples, which calls the
 # tools by their plain names, where they are installed under others.
 absent() {
-  [[ $1 == *samples/figures/* ]] && ! command -v gnuplot >/dev/null ||
+  [[ $1 == *samples/figures/* || $1 == *gnuplot* ]] && ! command -v gnuplot >/dev/null ||
     [[ $1 == *samples/*.sh* && ! -x $bin/smooth ]]
 }
 
