@@ -194,7 +194,7 @@ scatter() {  # RUN
 plus() { awk -v x="$1" -v y="$2" 'BEGIN { printf "%.17g", x + y }'; }
 echo
 echo "Energy: measured loss against what the fitted shift dissipates" \
-  "(within $tolerance at every moment)"
+  "(within $tolerance at every moment); closure: relative energy error, imbalance: the largest"
 printf "  %-${wide}s %-20s %-12s %-16s %-20s %s\n" \
   run "E at the start [J]" "lost [J]" "dissipated [J]" "closure, noise" imbalance
 for i in $(seq $count); do
