@@ -70,8 +70,8 @@ make_scratch
 number=0
 coast() {  # FILE WAY
   number=$((number + 1))
-  printf '## run %s\n' "${1##*/}" | tr '[:cntrl:]' '?' | sed 's/?$//'
-    smooth --coast -c v ${use[@]+"${use[@]}"} -- "$1" | awk -F '\t' -v way="$2" '
+  printf '## run %s\n' "$(printf %s "${1##*/}" | tr '[:cntrl:]' '?')"
+  smooth --coast -c v ${use[@]+"${use[@]}"} -- "$1" | awk -F '\t' -v way="$2" '
     /^## run / { next }
     /^##/ { print; next }
     /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) { if ($i ~ /^t\[/) t = i; if ($i ~ /^v\[/) v = i }
