@@ -233,7 +233,7 @@ table "Energy" "$scratch/table1"
 cat <<'HTML'
 </div><div class="section">
 <p>No such balance of one body can show that <i>K</i> is wrong: it cancels. What can is the law of the
-other body on the same mat. On felt it closes; on rubber it is off by a tenth, as the paper’s own
+other body on the same mat. On felt it closes; on rubber it is off by 8 and 12 %, as the paper’s own
 values for the two bodies are.</p>
 HTML
 table "The same with" "$scratch/table1"
