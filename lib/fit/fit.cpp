@@ -107,14 +107,14 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   const Estimate first = result.coefficients.front();
   if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
     fail(
-        "a wind and the law slow the body down alike, and these runs do not tell them apart: add "
-        "runs in the other direction");
+        "a wind and the law slow the body down alike, and these runs cannot separate them: add "
+        "runs in the other direction, of negative v");
   if (options.fit_slope && !both_ways(found) &&
       !(has_errors && result.law.power() && !not_visited(0) &&
         !not_visited(form.coefficients.size())))
     fail(
-        "a slope of the mat and its law slow the body down alike, and these runs do not tell them "
-        "apart ({} comes out as {}): add runs in the other direction",
+        "a slope of the mat and its law slow the body down alike, and these runs cannot separate "
+        "them ({} comes out as {}): add runs in the other direction, of negative v",
         form.coefficients.front().name, shown(first));
   for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
     const Estimate& c = result.coefficients[j];

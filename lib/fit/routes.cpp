@@ -37,7 +37,7 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
 Fitted fit_of_law(const Fitted& power, const LawForm& law) {
   Fitted found = fit_beside(power, law);
   std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
-  if (found.parameters().scene() > 0) scene += ": add runs in the other direction";
+  if (found.parameters().scene() > 0) scene += ": add runs in the other direction, of negative v";
   else scene = "";
   if (!was_found(found))
     fail<MotionError>("the rows do not determine D = {}{}", law.formula, scene);

@@ -100,7 +100,7 @@ double lag_of(const LinearFilter& filter, double step) {
 }
 
 /// Differences to the row before and to the row after differ in the clock alone if the times are
-/// even. If the rows do not tell them apart, v0 is the mean of both, and half of their difference
+/// even. If the rows cannot separate them, v0 is the mean of both, and half of their difference
 /// is an error of it.
 void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<Run>& all) {
   for (std::size_t r = 0; r < all.size(); ++r) {

@@ -114,6 +114,24 @@ cmp -s <(fitpower -q -K 0.5 -R 0.04 "$scratch/roll") \
   <(fitpower -q -K 0.5 -R 0.04 -g 9.81 --slope 0 --route position "$scratch/roll") ||
   complain 'fitpower: another default'
 
+# smooth(1): a window of seconds reaches a sixteenth of a step beyond its half.
+says man/smooth.1 'or a sixteenth of a step beyond'
+for step in 1.06 1.07; do
+  awk -v h="$step" 'BEGIN { print "t v"; print 0, 0; print h, 3; print 2 * h, 9 }' | smooth -q --seconds 2 | sed -n '4p' | cut -f 2
+done | tr '\n' ' ' | grep -qx '4 3 ' || complain 'smooth --seconds: another reach'
+
+# rolling-recipes(7): both directions are one fit, if the speeds of the way back are negative.
+says man/rolling-recipes.7 'if the speeds of the way back are negative'
+for slope in 0.001 -0.001; do
+  printf 'd0[m] d2[s^2/m]\n0.0102 2.72e-5\n' | simulate --law - -K 0.04 -R 1 --v0 33 --dt 1 --until 90 --columns t,v --slope=$slope |
+    awk -F '\t' -v OFS='\t' -v slope=$slope '!/^#/ && slope < 0 { $2 = -$2 } { print }' >"$scratch/way$slope"
+done
+fitpower -q --law d0+d2*v^2 -K 0.04 -R 1 --slope fit --digits 3 "$scratch/way0.001" "$scratch/way-0.001" |
+  awk -F '\t' '!/^#/ { found = $8 } END { exit !(found > 0.00099 && found < 0.00101) }' || complain 'the slope of a road, both ways'
+sed 's/\t-/\t/' "$scratch/way-0.001" >"$scratch/unsigned"
+fitpower -q --law d0+d2*v^2 -K 0.04 -R 1 --slope fit "$scratch/way0.001" "$scratch/unsigned" >/dev/null 2>&1 &&
+  complain 'speeds without a sign determine a slope'
+
 # fitpower(1): coverage of noise alone, as the table says that `make coverage` writes: of the rows in
 # which few runs are told, loglog aside.
 says man/fitpower.1 'nominal 95 % intervals have a coverage probability of 0.92 to 0.97, or a warning'
