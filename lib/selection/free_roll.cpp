@@ -69,8 +69,10 @@ std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions
     if (!held || k == 0 || k + 1 == readings.size() || readings[k].y != readings[k - 1].y)
       take(outliers.push(readings[k].t, readings[k].y));
   take(outliers.finish());
-  const double noise = noise_of(samples, positions, std::ldexp(step, -units.y));
-  std::vector<FreeRoll> found = search_rolls(samples, positions, noise);
+  const Means of_rows = means_of_rows(samples);
+  const double noise =
+      std::max(noise_of(samples, positions, std::ldexp(step, -units.y)), of_rows.noise);
+  std::vector<FreeRoll> found = search_rolls(samples, positions, noise, of_rows.rows);
   if (found.empty()) {
     const auto [low, high] = std::ranges::minmax(y);
     fail<MotionError>(

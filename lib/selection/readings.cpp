@@ -53,6 +53,39 @@ std::optional<double> way_by(std::span<const double> t, std::span<const double> 
              : std::nullopt;
 }
 
+/// The third differences of readings `lag` rows apart; 0 where a row between them is missing.
+std::vector<double> third_differences(std::span<const Sample> samples, std::size_t lag) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) steps.push_back(samples[i].t - samples[i - 1].t);
+  const double even = 3 * static_cast<double>(lag) * (steps.empty() ? 0 : median(steps));
+  std::vector<double> third;
+  for (std::size_t i = 0; i + 3 * lag < samples.size(); ++i) {
+    const auto at = [&](std::size_t k) { return samples[i + k * lag]; };
+    const bool missing = std::abs(at(3).t - at(0).t - even) > 0.03 * even;
+    third.push_back(missing ? 0 : at(3).y - at(0).y - 3 * (at(2).y - at(1).y));
+  }
+  return third;
+}
+
+/// The sizes of those that are not 0, as they are at rest, or by rounding.
+std::vector<double> sizes_of(std::span<const double> differences) {
+  double largest = 0;
+  for (const double d : differences) largest = std::max(largest, std::abs(d));
+  std::vector<double> sizes;
+  for (const double d : differences)
+    if (std::abs(d) > finest_grid * largest) sizes.push_back(std::abs(d));
+  return sizes;
+}
+
+/// The autocovariance of the third differences of means of white noise over so many rows, in units
+/// of the variance of a mean.
+double of_means(std::size_t rows, std::size_t lag) {
+  const auto m = static_cast<double>(rows);
+  const auto r = [&](double k) { return std::max(0.0, 1 - std::abs(k) / m); };
+  const auto k = static_cast<double>(lag);
+  return 20 * r(k) - 15 * (r(k - 1) + r(k + 1)) + 6 * (r(k - 2) + r(k + 2)) - r(k - 3) - r(k + 3);
+}
+
 }  // namespace
 
 double noise_of(std::span<const Sample> samples, bool positions, double step) {
@@ -86,6 +119,39 @@ double noise_of(std::span<const Sample> samples, bool positions, double step) {
         std::max(noise, size == 25 ? nth_smallest(scatter, scatter.size() / 4) : median(scatter));
   }
   return noise;
+}
+
+Means means_of_rows(std::span<const Sample> samples) {
+  constexpr std::size_t longest = 35;
+  constexpr double clear = 50;  // as chi square
+  constexpr double normal = 0.6745;
+  std::vector<double> third = third_differences(samples, 1);
+  std::vector<double> sizes = sizes_of(third);
+  std::vector<double> apart = sizes_of(third_differences(samples, 3));
+  if (apart.size() < 20) return {};
+  const double typical = median(sizes);
+  const bool rounded = typical < 3 * std::ranges::min(sizes);
+  if (rounded || median(apart) < 1.3 * typical) return {};
+  for (double& d : third) d = std::clamp(d, -2.5 * typical / normal, 2.5 * typical / normal);
+  std::vector<double> seen;
+  for (std::size_t lag = 0; lag < std::min(longest + 4, third.size()); ++lag) {
+    const auto later = third.begin() + static_cast<std::ptrdiff_t>(lag);
+    seen.push_back(std::inner_product(later, third.end(), third.begin(), 0.0));
+  }
+  const auto distance = [&](std::size_t rows) {
+    double sum = 0;
+    for (std::size_t lag = 1; lag < seen.size(); ++lag)
+      sum += std::pow(seen[lag] / seen[0] - of_means(rows, lag) / of_means(rows, 0), 2);
+    return static_cast<double>(sizes.size()) * sum;
+  };
+  std::pair<double, std::size_t> best{distance(1) - clear, 1};
+  for (std::size_t rows = 2; rows <= std::min(longest, samples.size() / 10); ++rows)
+    best = std::min(best, {distance(rows), rows});
+  const std::size_t rows = best.second;
+  // Differences over two steps have nearly the correlations of means of two rows.
+  if (rows < 3) return {};
+  const double variance = typical * typical / (normal * normal) / of_means(rows, 0);
+  return {rows, std::sqrt(static_cast<double>(rows) * variance)};
 }
 
 bool are_held(std::span<const double> readings) {

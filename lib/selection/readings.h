@@ -3,6 +3,7 @@
 // they are pulses.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -14,6 +15,21 @@ namespace rolling {
 /// neighbours. Where a body moves by less than a step of rounded positions it is at least that of
 /// rounding.
 double noise_of(std::span<const Sample> samples, bool positions, double step);
+
+/// Of how many rows a program has made each reading by a mean, as the readings show; 1: of its own
+/// alone. And the noise of means: n of them tell as much as n/rows readings of the sensor, so that
+/// the variance that each of them stands for is so many times its own; 0 for one row.
+///
+/// Third differences hold the noise and hardly any motion. If readings are means of m rows, those
+/// of rows that are m apart are correlated by -1/2, where the window of one begins and that of the
+/// other ends. The number is the one whose correlations are nearest to those that are seen, for
+/// other filters too, if it is clearly nearer than 1 and if readings three rows apart differ more
+/// than neighbours do.
+struct Means {
+  std::size_t rows = 1;
+  double noise = 0;
+};
+Means means_of_rows(std::span<const Sample> samples);
 
 /// Whether a logger repeated readings because no newer one had arrived.
 ///

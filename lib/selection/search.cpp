@@ -32,8 +32,8 @@ class Search {
   static constexpr bool positions = of == Quantity::x;
 
  public:
-  Search(std::span<const Sample> samples, double noise)
-      : samples_(samples), noise_(noise), joints_(samples, noise) {
+  Search(std::span<const Sample> samples, double noise, std::size_t rows)
+      : samples_(samples), noise_(noise), rows_(rows), joints_(samples, noise) {
     const auto joints = best_partition<most_coefficients(of)>(samples, noise);
     for (std::size_t i = 1; i < joints.size(); ++i)
       pieces_.emplace_back(samples, joints[i - 1], joints[i], noise);
@@ -224,8 +224,9 @@ class Search {
     Stretch s{begin_of(c), pieces_[c.last].end};
     FreeRoll::End how = set_end(c, s);
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
-    // several positions knows of a row behind the joint.
-    const std::size_t spare = std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25);
+    // several positions knows of a row behind the joint, and a mean of as many as it is made of.
+    const std::size_t spare =
+        std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
     if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
@@ -328,16 +329,19 @@ class Search {
   }
 
   std::span<const Sample> samples_;
-  double noise_, fastest_ = 0;
+  double noise_;
+  std::size_t rows_;
+  double fastest_ = 0;
   Joints<of> joints_;
   std::vector<Piece<of>> pieces_;
 };
 
 }  // namespace
 
-std::vector<FreeRoll> search_rolls(std::span<const Sample> samples, bool positions, double noise) {
-  if (positions) return Search<Quantity::x>(samples, noise).rolls();
-  return Search<Quantity::v>(samples, noise).rolls();
+std::vector<FreeRoll> search_rolls(std::span<const Sample> samples, bool positions, double noise,
+                                   std::size_t rows) {
+  if (positions) return Search<Quantity::x>(samples, noise, rows).rolls();
+  return Search<Quantity::v>(samples, noise, rows).rolls();
 }
 
 }  // namespace rolling

@@ -145,6 +145,45 @@ std::vector<double> pulses() {
 
 }  // namespace
 
+// n means of m rows tell as much as n/m readings: their noise is that of the sensor again.
+TEST_CASE("readings: how many rows a mean is of, and the noise of means", "[signal]") {
+  constexpr double size = 0.05;
+  for (const std::size_t rows : {1u, 2u, 3u, 5u, 11u}) {
+    int told = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const Series v = speeds(1, size, 1e-4, 0.1, seed);
+      std::vector<Sample> means;
+      for (std::size_t i = 0; i + rows <= v.size(); ++i) {
+        double sum = 0;
+        for (std::size_t k = i; k < i + rows; ++k) sum += v[k];
+        means.push_back({0.04 * static_cast<double>(i), sum / static_cast<double>(rows)});
+      }
+      const auto [seen, noise] = means_of_rows(means);
+      // Means of two rows are hardly other than differences over two.
+      const std::size_t right = rows == 2 ? 1 : rows;
+      told += seen == right || (rows == 11 && seen + 1 >= right && seen <= right + 1);
+      if (seen > 1) CHECK((noise > 0.75 * size && noise < 1.33 * size));
+    }
+    CAPTURE(rows, told);
+    CHECK(told >= 19);
+  }
+}
+
+TEST_CASE("readings: differences over two steps, few and equal readings are no means", "[signal]") {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Series x = speeds(1, 0.001, 0, 0.1, seed);
+    std::vector<Sample> differences;
+    for (std::size_t i = 2; i < x.size(); ++i)
+      differences.push_back({0.04 * static_cast<double>(i), (x[i] - x[i - 2]) / 0.08});
+    CHECK(means_of_rows(differences).rows == 1);
+  }
+  CHECK(means_of_rows({}).rows == 1);
+  CHECK(means_of_rows(std::vector<Sample>{{0, 1}, {1, 2}, {2, 1}, {3, 4}}).rows == 1);
+  std::vector<Sample> rest;
+  for (int i = 0; i < 100; ++i) rest.push_back({0.04 * i, 1});
+  CHECK(means_of_rows(rest).rows == 1);
+}
+
 TEST_CASE("readings: pulses, one way over the time from row to row, stamped at either end") {
   const std::vector<double> t = pulses();
   for (const double way : {0.05, -0.05}) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which rows are kept of smoothed readings, of pushes that fade, and of bodies that are driven on.
+#include "selection/free_roll.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "unit/catch.h"
+#include "unit/signal/through.h"
+
+using namespace rolling;
+
+// Rest for 1 s, a push of 0.5 s up to 0.5 m/s, a roll that slows by 0.1 m/s^2, rest from 6.5 s on;
+// means of 3 and of 11 rows, as programs smooth speeds: their errors follow one another.
+TEST_CASE("free_roll: smoothed speeds are kept as a whole", "[signal]") {
+  constexpr double release = 1.5, stop = 6.5;
+  for (const std::size_t rows : {3U, 11U}) {
+    int whole = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+      const Series e = noise(400, seed);
+      Series v;
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < e.size(); ++i) {
+        const double t = 0.02 * static_cast<double>(i);
+        double speed = 0;
+        if (t > 1) speed = 0.5 * std::pow(std::sin(3.14159265358979 * (t - 1)), 2);
+        if (t > release) speed = std::max(0.0, 0.1 * (stop - t));
+        v.push_back(speed + 0.01 * e[i]);
+        double sum = 0;
+        for (std::size_t k = 0; k < rows && k < v.size(); ++k) sum += v[i - k];
+        if (v.size() >= rows)
+          run.push_back(
+              {t - 0.01 * static_cast<double>(rows - 1), sum / static_cast<double>(rows)});
+      }
+      const auto kept = free_roll(run, false).kept;
+      whole += kept.from > release - 0.05 && kept.from < release + 1 && kept.to > stop - 1 &&
+               kept.to < stop + 0.1;
+    }
+    CAPTURE(rows);
+    CHECK(whole >= 38);
+  }
+}
