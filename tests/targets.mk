@@ -222,6 +222,8 @@ work-precision: build/bench/ulp build/bench/work_precision
 	build/bench/ulp $(call short,200) | tee build/work-precision/ulp.tsv
 	build/bench/work_precision build/work-precision $(call short,memory-1e-3)
 	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv
+	$(call short,,[ ! -e build/work-precision/overview.svg ] || \
+	  cp build/work-precision/overview.svg samples/work-precision.svg)
 
 # The errors of smooth and differentiate on noisy runs, by method and window: some seconds.
 work-precision-signal: build/bench/signal
