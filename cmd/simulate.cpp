@@ -230,7 +230,7 @@ void add_options(Tool& tool, SonarOptions& sonar) {
   tool.number("--noise", sonar.noise, not_negative,
               "noise of a position before it is rounded [m] (0.0003)");
   tool.number("--lost", sonar.lost, {"from 0 to below 1", [](double x) { return x >= 0 && x < 1; }},
-              "share of lost echoes (0.01)");
+              "dropouts: share of lost echoes (0.01)");
 }
 
 /// Writes the rows of a roll: these quantities at each time.
