@@ -2,6 +2,7 @@
 #include "selection/readings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/grid.h"
+#include "base/matrix.h"
 #include "base/median.h"
 #include "selection/polynomial.h"
 
@@ -77,14 +79,26 @@ std::vector<double> sizes_of(std::span<const double> differences) {
   return sizes;
 }
 
-/// The autocovariance of the third differences of means of white noise over so many rows, in units
-/// of the variance of a mean.
-double of_means(std::size_t rows, std::size_t lag) {
-  const auto m = static_cast<double>(rows);
-  const auto r = [&](double k) { return std::max(0.0, 1 - std::abs(k) / m); };
-  const auto k = static_cast<double>(lag);
-  return 20 * r(k) - 15 * (r(k - 1) + r(k + 1)) + 6 * (r(k - 2) + r(k + 2)) - r(k - 3) - r(k + 3);
+/// The autocovariance of the third differences of what a filter with these weights makes of white
+/// noise, in units of the variance that it makes.
+std::vector<double> covariance_of(std::span<const double> weights, std::size_t lags) {
+  constexpr std::array third{-1.0, 3.0, -3.0, 1.0};
+  std::vector<double> of_third(weights.size() + third.size() - 1);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t k = 0; k < third.size(); ++k) of_third[i + k] += weights[i] * third[k];
+  const double variance = dot(weights, weights);
+  std::vector<double> covariance(lags);
+  for (std::size_t lag = 0; lag < std::min(lags, of_third.size()); ++lag) {
+    const std::span<const double> all(of_third);
+    covariance[lag] = dot(all.first(all.size() - lag), all.subspan(lag)) / variance;
+  }
+  return covariance;
 }
+
+/// The weights of sensors that are no means: the readings themselves; speeds by differences over
+/// two steps, and those of PASCO's and Vernier's programs (signal/derivative.h).
+const std::vector<std::vector<double>> no_means{
+    {1}, {-1, 0, 1}, {-1, -1, 0, 1, 1}, {-1. / 6, -1. / 2, -3. / 2, 0, 3. / 2, 1. / 2, 1. / 6}};
 
 }  // namespace
 
@@ -138,19 +152,23 @@ Means means_of_rows(std::span<const Sample> samples) {
     const auto later = third.begin() + static_cast<std::ptrdiff_t>(lag);
     seen.push_back(std::inner_product(later, third.end(), third.begin(), 0.0));
   }
-  const auto distance = [&](std::size_t rows) {
+  const auto distance = [&](std::span<const double> weights) {
+    const std::vector<double> expected = covariance_of(weights, seen.size());
     double sum = 0;
     for (std::size_t lag = 1; lag < seen.size(); ++lag)
-      sum += std::pow(seen[lag] / seen[0] - of_means(rows, lag) / of_means(rows, 0), 2);
+      sum += std::pow(seen[lag] / seen[0] - expected[lag] / expected[0], 2);
     return static_cast<double>(sizes.size()) * sum;
   };
-  std::pair<double, std::size_t> best{distance(1) - clear, 1};
-  for (std::size_t rows = 2; rows <= std::min(longest, samples.size() / 10); ++rows)
-    best = std::min(best, {distance(rows), rows});
+  double nearest = INFINITY;
+  for (const std::vector<double>& weights : no_means)
+    nearest = std::min(nearest, distance(weights));
+  std::pair<double, std::size_t> best{nearest - clear, 1};
+  for (std::size_t rows = 3; rows <= std::min(longest, samples.size() / 10); ++rows)
+    best = std::min(best, {distance(std::vector<double>(rows, 1)), rows});
   const std::size_t rows = best.second;
-  // Differences over two steps have nearly the correlations of means of two rows.
-  if (rows < 3) return {};
-  const double variance = typical * typical / (normal * normal) / of_means(rows, 0);
+  if (rows == 1) return {};
+  const double of_mean = covariance_of(std::vector<double>(rows, 1), 1).front();
+  const double variance = typical * typical / (normal * normal) / of_mean;
   return {rows, std::sqrt(static_cast<double>(rows) * variance)};
 }
 

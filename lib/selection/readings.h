@@ -23,8 +23,8 @@ double noise_of(std::span<const Sample> samples, bool positions, double step);
 /// Third differences hold the noise and hardly any motion. If readings are means of m rows, those
 /// of rows that are m apart are correlated by -1/2, where the window of one begins and that of the
 /// other ends. The number is the one whose correlations are nearest to those that are seen, for
-/// other filters too, if it is clearly nearer than 1 and if readings three rows apart differ more
-/// than neighbours do.
+/// other filters too, if it is clearly nearer than those of raw readings and of speeds that a
+/// sensor differences, and if readings three rows apart differ more than neighbours do.
 struct Means {
   std::size_t rows = 1;
   double noise = 0;
