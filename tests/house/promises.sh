@@ -45,7 +45,7 @@ while IFS='|' read -r _ page says tests _; do
   rows=$((rows + 1))
   page=$(sed -E 's/^ *(.*)\((.)\) *$/\1.\2/' <<<"$page")
   says=$(sed 's/^ *//; s/ *$//' <<<"$says")
-  [ ! -e "$scratch/$page" ] || grep -qF -e "$says" "$scratch/$page" || complain "$page does not say: $says"
+  [ ! -e "$scratch/$page" ] || grep -qF -e "$says" "$scratch/$page" || complain "$page no longer says: $says (put its words of today into tests/README.md)"
   count=0
   while IFS= read -r test; do
     count=$((count + 1))
