@@ -9,7 +9,7 @@ export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
 linked=$1 folder=$2
-version=$(bin/smooth --version | cut -d ' ' -f 3)
+rolling=$(bin/smooth --version | cut -d ' ' -f 3)
 # shellcheck disable=SC2046  # words
 set -- $(${CXX:-g++} -E -P -x c++ - <<'END' | tail -n 1 | tr -d '"'
 #include <CLI/Version.hpp>
@@ -36,7 +36,7 @@ source_of() {  # PACKAGE: where its source is
 }
 {
   printf '{\n  "bomFormat": "CycloneDX",\n  "specVersion": "1.6",\n  "version": 1,\n'
-  printf '  "metadata": {"component": {"type": "application", "name": "rolling", "version": "%s",\n' "$version"
+  printf '  "metadata": {"component": {"type": "application", "name": "rolling", "version": "%s",\n' "$rolling"
   printf '    "licenses": [{"expression": "GPL-3.0-or-later"}]}},\n  "components": ['
   comma=''
   while read -r name version licence package; do
@@ -53,7 +53,9 @@ END
   printf '\n  ]\n}\n'
 } >"$folder/parts.cdx.json"
 {
-  echo "These programs are rolling $version, GPL-3.0-or-later: whoever gives them to you owes you the"
+  echo "Copyright (C) $(date -u -d "@$(cmd/install/date.sh)" +%Y) the authors of rolling"
+  echo
+  echo "These programs are rolling $rolling, GPL-3.0-or-later: whoever gives them to you owes you the"
   echo 'source of this version. They contain parts of others, whose sources and notices follow.'
   while read -r name version licence package; do
     printf '\n==== %s %s, %s\n' "$name" "$version" "$(echo "$licence" | sed 's/+WITH+/ WITH /')"

@@ -20,7 +20,7 @@ forbidden+='|install -D|tail [^|]*--[a-z]|head -n -|cp (-[a-z]+ )*-t|readlink -f
 of_gnu='-printf|sort -[a-z]*[Vz]|\b(date|touch) .*-d|stat -c|\b(nproc|realpath|tac|shuf|timeout) '
 of_gnu+='|\bs([/|])[^/|]*\4[^/|]*\\n'
 if grep -nE "^[^#]*($forbidden)" "${scripts[@]}" ||
-  grep -nE "^[^#]*($of_gnu)" "${scripts[@]}" | grep -vE '^cmd/install/(deb|static|date)\.sh:'
+  grep -nE "^[^#]*($of_gnu)" "${scripts[@]}" | grep -vE '^cmd/install/(deb|static|parts|date)\.sh:'
 then complain 'only GNU has that'; fi
 if grep -nE '^(private|undefine|define .*=|\.ONESHELL|\.SHELLFLAGS)|: private |\$\(file |!=|::=' \
   Makefile; then complain 'GNU make 3.81 has no such thing'; fi

@@ -13,9 +13,9 @@ scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
 complain() { echo "$*" && wrong=1; }
-archive=build/rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$(uname -m).tar.xz
 export SOURCE_DATE_EPOCH=1600000000 XZ_OPT=-0
 make static >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
+archive=build/rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$(uname -m).tar.xz
 
 root=$scratch/root
 mkdir -p "$root/bin" "$root/tmp" "$root/dev"
@@ -42,7 +42,7 @@ while read -r name package; do
   grep -qF "==== $name $listed," "$root/NOTICES" || complain "no notice of $name $listed"
 done < <(printf '%s\n' 'CLI11 libcli11-dev' 'fmt libfmt-dev' 'GSL libgsl-dev' 'glibc libc6-dev' \
   "libstdc++ libstdc++-$(g++ -dumpversion)-dev")
-for words in 'Henry Schreiner' 'Victor Zverovich' 'GNU LESSER GENERAL PUBLIC' 'RUNTIME LIBRARY EXCEPTION'; do
+for words in "rolling $(bin/smooth --version | cut -d ' ' -f 3)," 'the authors of rolling' 'Henry Schreiner' 'Victor Zverovich' 'GNU LESSER GENERAL PUBLIC' 'RUNTIME LIBRARY EXCEPTION'; do
   grep -q "$words" "$root/NOTICES" || complain "the notices lack $words"
 done
 ! command -v python3 >/dev/null || python3 -m json.tool "$root/parts.cdx.json" >/dev/null ||
