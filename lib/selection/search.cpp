@@ -35,8 +35,7 @@ class Search {
   Search(std::span<const Sample> samples, double noise, std::size_t rows)
       : samples_(samples), noise_(noise), rows_(rows), joints_(samples, noise) {
     const auto joints = best_partition<most_coefficients(of)>(samples, noise);
-    for (std::size_t i = 1; i < joints.size(); ++i)
-      pieces_.emplace_back(samples, joints[i - 1], joints[i], noise);
+    for (std::size_t i = 1; i < joints.size(); ++i) add_piece(joints[i - 1], joints[i]);
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
         if (const auto v = p.v(t); !p.is_short())
@@ -64,6 +63,26 @@ class Search {
   }
 
  private:
+  /// Adds a piece, or two if the speed has a minimum or a maximum amid it, and rises by more than
+  /// four standard errors: a free body slows down, so that the other part is driven.
+  void add_piece(std::size_t begin, std::size_t end) {
+    const Piece<of> p(samples_, begin, end, noise_);
+    pieces_.push_back(p);
+    const double first = p.a(p.from).value;
+    const double last = p.a(p.to).value;
+    if (first * last >= 0) return;
+    const double t = std::lerp(p.from, p.to, first / (first - last));
+    const auto v = p.v(t);
+    const auto driven = p.v(last * v.value > 0 ? p.to : p.from);
+    const double rise = std::abs(driven.value - v.value);
+    if (v.value * driven.value <= 0 || rise < 4 * std::hypot(v.error, driven.error)) return;
+    std::size_t joint = begin;
+    while (samples_[joint].t < t) ++joint;
+    if (std::min(joint - begin, end - joint) < 5) return;
+    pieces_.back() = Piece<of>(samples_, begin, joint, noise_);
+    pieces_.emplace_back(samples_, joint, end, noise_);
+  }
+
   /// A speed, and the deceleration at it.
   struct Slowing {
     double v, deceleration;
@@ -208,15 +227,20 @@ class Search {
     return ratio > 0.55 && ratio < 1.5;
   }
 
+  /// Whether the body may be at rest at the end.
+  bool is_slow(const Chain& c) const {
+    const Piece<of>& last = pieces_[c.last];
+    const auto v = last.v(last.to);
+    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest);
+  }
+
   FreeRoll::End end_of(const Chain& c) const {
     const Piece<of>& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
-    const auto v = last.v(last.to);
     const auto back = last.v(last.middle());
     if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
       return FreeRoll::End::is_ended;
-    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest) ? FreeRoll::End::by_itself
-                                                                       : FreeRoll::End::is_ended;
+    return is_slow(c) ? FreeRoll::End::by_itself : FreeRoll::End::is_ended;
   }
 
   /// The samples that belong to a roll whatever their noise.
@@ -231,7 +255,8 @@ class Search {
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
     // A rest at the end of the run may be too short for a piece of its own.
-    if (how == FreeRoll::End::goes_on && s.end < samples_.size()) how = FreeRoll::End::by_itself;
+    if (how == FreeRoll::End::goes_on && s.end < samples_.size() && is_slow(c))
+      how = FreeRoll::End::by_itself;
     return {s, how, samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t};
   }
 

@@ -40,3 +40,29 @@ TEST_CASE("free_roll: smoothed speeds are kept as a whole", "[signal]") {
     CHECK(whole >= 38);
   }
 }
+
+// It coasts and is driven again alike: a valley, which one parabola of speeds can be.
+TEST_CASE("free_roll: of a symmetric valley of speeds the way down is kept", "[signal]") {
+  for (const double middle : {18.0, 20.0, 25.0})
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const Series e = noise(41, seed);
+      std::vector<Sample> run;
+      for (const double of_noise : e) {
+        const auto t = static_cast<double>(run.size());
+        run.push_back({t, 4 + 0.025 * (t - middle) * (t - middle) + 0.02 * of_noise});
+      }
+      const FreeRoll roll = free_roll(run, false);
+      CAPTURE(middle, seed, roll.kept.from, roll.kept.to);
+      CHECK(roll.kept.from <= 3);
+      CHECK(roll.kept.to <= middle);
+      CHECK(roll.kept.to >= middle / 2);
+      CHECK(roll.how == FreeRoll::End::is_ended);
+    }
+}
+
+TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is not at rest",
+          "[signal]") {
+  std::vector<Sample> run;
+  for (int i = 0; i < 60; ++i) run.push_back({1.0 * i, 80.0 - i / 3});
+  CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
+}
