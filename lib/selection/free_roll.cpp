@@ -39,6 +39,30 @@ constexpr std::size_t at_once = 1000;
 
 std::size_t size_of_means(std::size_t n) { return (n + at_once - 1) / at_once; }
 
+/// Refuses a run of which more than this share of the readings are off the motion.
+void refuse_spikes(std::span<const Sample> run, double share) {
+  const Spikes spikes = spikes_in(run);
+  if (static_cast<double>(spikes.found) <= share * static_cast<double>(spikes.among)) return;
+  fail<MotionError>(
+      "{} of {} readings jump off the motion and back, the first to {:.4g} at {:.12g} s: too many "
+      "to "
+      "find the free roll; a sensor without an echo often gives 0 or its largest reading: leave "
+      "these rows out, or make the cells blank",
+      spikes.found, spikes.among, spikes.first.y, spikes.first.t);
+}
+
+/// Refuses positions of which a counter has started over.
+void refuse_start_over(std::span<const Sample> run) {
+  const auto over = start_over(run);
+  if (!over) return;
+  const Sample& before = run[*over - 1];
+  const Sample& after = run[*over];
+  fail<MotionError>(
+      "the positions jump from {:.6g} to {:.6g} at {:.12g} s, and the motion goes on: a counter "
+      "that starts over; add its range to all later rows",
+      before.y, after.y, after.t);
+}
+
 /// The rolls in the means of equal numbers of samples.
 std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions) {
   const std::size_t size = size_of_means(run.size());
@@ -74,6 +98,7 @@ std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions
       std::max(noise_of(samples, positions, std::ldexp(step, -units.y)), of_rows.noise);
   std::vector<FreeRoll> found = search_rolls(samples, positions, noise, of_rows.rows);
   if (found.empty()) {
+    refuse_spikes(run, 0.02);
     const auto [low, high] = std::ranges::minmax(y);
     fail<MotionError>(
         "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
@@ -126,21 +151,23 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
   }
 }
 
-void require_enough(std::size_t n) {
-  if (n < 10) fail("a run of {} rows is too short to find its free roll", n);
+void require_motion(std::span<const Sample> run, bool positions) {
+  if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
+  refuse_spikes(run, 0.12);
+  if (positions) refuse_start_over(run);
 }
 
 }  // namespace
 
 FreeRoll free_roll(std::span<const Sample> run, bool positions) {
-  require_enough(run.size());
+  require_motion(run, positions);
   FreeRoll longest = rolls_in_means(run, positions).front();
   refine(run, positions, longest);
   return longest;
 }
 
 std::vector<FreeRoll> free_rolls(std::span<const Sample> run, bool positions) {
-  require_enough(run.size());
+  require_motion(run, positions);
   std::vector<FreeRoll> rolls = rolls_in_means(run, positions);
   for (FreeRoll& roll : rolls) refine(run, positions, roll);
   std::ranges::sort(rolls, {}, [](const FreeRoll& roll) { return roll.kept.begin; });

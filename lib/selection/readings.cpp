@@ -172,6 +172,43 @@ Means means_of_rows(std::span<const Sample> samples) {
   return {rows, std::sqrt(static_cast<double>(rows) * variance)};
 }
 
+Spikes spikes_in(std::span<const Sample> run) {
+  constexpr std::size_t beside = 5;
+  std::vector<double> medians;
+  std::vector<Sample> apart;
+  const std::size_t step = 1 + run.size() / 2000;
+  for (std::size_t i = beside; i + beside < run.size(); i += step) {
+    std::vector<double> near;
+    for (const Sample& s : run.subspan(i - beside, 2 * beside + 1)) near.push_back(s.y);
+    medians.push_back(median(near));
+    for (double& y : near) y = std::abs(y - medians.back());
+    if (std::abs(run[i].y - medians.back()) > 6 * median(near)) apart.push_back(run[i]);
+    else apart.push_back({run[i].t, medians.back()});
+  }
+  Spikes spikes{0, apart.size()};
+  if (apart.empty()) return spikes;
+  const auto [least, most] = std::ranges::minmax(medians);
+  for (std::size_t i = 0; i < apart.size(); ++i)
+    if (std::abs(apart[i].y - medians[i]) > (most - least) / 5 && spikes.found++ == 0)
+      spikes.first = apart[i];
+  return spikes;
+}
+
+std::optional<std::size_t> start_over(std::span<const Sample> run) {
+  const auto [least, most] = std::ranges::minmax(run, {}, &Sample::y);
+  for (std::size_t i = 2; i + 1 < run.size(); ++i) {
+    const double jump = run[i].y - run[i - 1].y;
+    const double before = run[i - 1].y - run[i - 2].y;
+    const double after = run[i + 1].y - run[i].y;
+    const double later = run[std::min(i + 10, run.size() - 1)].y - run[i - 1].y;
+    const bool goes_on = before * after > 0 && before * jump < 0 && later / jump > 0.5;
+    if (std::abs(jump) > 0.9 * (most.y - least.y) && goes_on &&
+        std::max(std::abs(before), std::abs(after)) < 0.1 * std::abs(jump))
+      return i;
+  }
+  return {};
+}
+
 bool are_held(std::span<const double> readings) {
   double largest = 0;
   for (const double y : readings) largest = std::max(largest, std::abs(y));

@@ -47,6 +47,19 @@ Means means_of_rows(std::span<const Sample> samples);
 /// does rest (readings of 0).
 bool are_held(std::span<const double> readings);
 
+/// Readings that jump off the motion: those that are further from the median of themselves and five
+/// neighbours on either side than a fifth of the range of such medians, and than six times the
+/// median distance of these eleven. Of long runs some thousand readings are looked at.
+struct Spikes {
+  std::size_t found = 0, among = 0;
+  Sample first{};
+};
+Spikes spikes_in(std::span<const Sample> run);
+
+/// The first reading after a counter of positions has started over: a jump by almost the range of
+/// all readings, against a motion that goes on after it as before.
+std::optional<std::size_t> start_over(std::span<const Sample> run);
+
 /// The way [m] from one pulse to the next, with the sign of the speeds, if each speed but the first
 /// times the time since the row before it (or each but the last times that to the row after it) is
 /// that one way, as far as the numbers are written, and the times between rows differ enough to

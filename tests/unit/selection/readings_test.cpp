@@ -236,3 +236,37 @@ TEST_CASE("readings: speeds that are measured otherwise are none") {
   CHECK_FALSE(way_between_pulses(even, constant));  // even times tell nothing
   CHECK_FALSE(way_between_pulses(t, std::vector<double>(t.size(), NAN)));
 }
+
+TEST_CASE("readings: those that jump off the motion are counted, and told from a push",
+          "[signal]") {
+  for (const double slowing : {0.05, 0.2}) {
+    const Series v = speeds(1, 0.02, 0, slowing, 1);
+    std::vector<Sample> run;
+    for (const double y : v) run.push_back({0.04 * static_cast<double>(run.size()), y});
+    for (std::size_t i = 0; i < 25; ++i) run[i].y = 0.02;  // at rest, and fast in the next row
+    CHECK(spikes_in(run).found == 0);
+    for (std::size_t i = 32; i < run.size(); i += 8) run[i].y = 9;
+    const Spikes spikes = spikes_in(run);
+    CHECK(spikes.found == 58);  // and one among the last five rows
+    CHECK(spikes.first.t == 0.04 * 32);
+    CHECK(spikes.first.y == 9);
+  }
+  CHECK(spikes_in({}).found == 0);
+}
+
+TEST_CASE("readings: a counter that starts over is told from a step and from spikes", "[signal]") {
+  std::vector<Sample> run;
+  for (int i = 0; i < 100; ++i) run.push_back({0.04 * i, std::fmod(64000 + 40.0 * i, 65536)});
+  CHECK(start_over(run) == 39);
+  for (Sample& s : run) s.y = 65535 - s.y;
+  CHECK(start_over(run) == 39);
+  for (Sample& s : run) s.y = s.t;
+  CHECK(!start_over(run));
+  run[50].y = 100;
+  CHECK(!start_over(run));
+  for (std::size_t i = 51; i < 54; ++i) run[i].y = 100 - run[i].y;  // a burst
+  CHECK(!start_over(run));
+  for (std::size_t i = 50; i < run.size(); ++i) run[i].y = 100;
+  CHECK(!start_over(run));
+  CHECK(!start_over(std::span<const Sample>(run).first(2)));
+}
