@@ -50,8 +50,7 @@ build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main
 # The exact arithmetic built as it is, and with flags in front of the project's that would fuse
 # multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
 # differentiate with their sums and numbers built so.
-exact_source := lib/contact/contact.cpp tests/fused/fused.cpp \
-                $(wildcard lib/contact/*law.cpp lib/ode/*.cpp) \
+exact_source := tests/fused/fused.cpp $(wildcard lib/contact/*.cpp lib/ode/*.cpp) \
                 $(filter-out lib/motion/scene_measure.cpp,$(wildcard lib/motion/*.cpp))
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
                    uname -m | grep -x x86_64)
