@@ -31,7 +31,7 @@ const std::map<Errors, const char*> kinds{{Errors::none, "none"},
                                           {Errors::uneven, "of noise of uneven size"},
                                           {Errors::autocorrelation, "of the autocorrelation"}};
 
-/// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06; sigma_b 0.0086: noise 0.0086, K 0"
+/// "sigma_a 1.9e-05: noise 1.2e-05, K 6.2e-06 (95 effective degrees of freedom); ..."
 std::string budget(const FitResult& r) {
   std::string all;
   for (std::size_t j = 0; j < r.coefficients.size(); ++j) {
@@ -45,6 +45,11 @@ std::string budget(const FitResult& r) {
       all += fmt::format("{} {} {:.2g}", &share == &r.shares.front() ? "" : ",", share.of,
                          part < 1e-9 * sigma ? 0 : part);
     }
+    // Of Welch and Satterthwaite (GUM, G.4.1), since the input quantities have no limit of theirs.
+    const double noise = r.shares.front().sigma(j);
+    if (r.freedom > 0 && noise > 0)
+      all += fmt::format(" ({:.0f} effective degrees of freedom)",
+                         std::floor(static_cast<double>(r.freedom) * std::pow(sigma / noise, 4)));
   }
   return all;
 }
