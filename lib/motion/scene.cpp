@@ -35,7 +35,7 @@ class SpeedRoll final : public Motion {
   double position() override { return x0_ + state_.x; }
   double velocity() override { return state_.v; }
   double acceleration() override {
-    if (state_.a == 0 || roll_.body().road) return state_.a;
+    if (state_.a == 0 || roll_.body().road) return 0 + state_.a;  // no -0
     return acceleration_from_shift(roll_.body(), geometry_, shift());
   }
   double shift() override {

@@ -176,13 +176,16 @@ Spikes spikes_in(std::span<const Sample> run) {
   constexpr std::size_t beside = 5;
   std::vector<double> medians;
   std::vector<Sample> apart;
+  std::vector<double> readings;
+  for (const Sample& s : run) readings.push_back(s.y);
+  const double grid = grid_of(readings);
   const std::size_t step = 1 + run.size() / 2000;
   for (std::size_t i = beside; i + beside < run.size(); i += step) {
     std::vector<double> near;
     for (const Sample& s : run.subspan(i - beside, 2 * beside + 1)) near.push_back(s.y);
     medians.push_back(median(near));
     for (double& y : near) y = std::abs(y - medians.back());
-    if (std::abs(run[i].y - medians.back()) > 6 * median(near)) apart.push_back(run[i]);
+    if (std::abs(run[i].y - medians.back()) > std::max(6 * median(near), 3 * grid)) apart.push_back(run[i]);
     else apart.push_back({run[i].t, medians.back()});
   }
   Spikes spikes{0, apart.size()};

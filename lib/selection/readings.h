@@ -49,7 +49,8 @@ bool are_held(std::span<const double> readings);
 
 /// Readings that jump off the motion: those that are further from the median of themselves and five
 /// neighbours on either side than a fifth of the range of such medians, and than six times the
-/// median distance of these eleven. Of long runs some thousand readings are looked at.
+/// median distance of these eleven, and than three steps of a grid that the readings lie on. Of
+/// long runs some thousand readings are looked at.
 struct Spikes {
   std::size_t found = 0, among = 0;
   Sample first{};

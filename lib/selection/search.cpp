@@ -63,8 +63,9 @@ class Search {
   }
 
  private:
-  /// Adds a piece, or two if the speed has a minimum or a maximum amid it, and rises by more than
-  /// four standard errors: a free body slows down, so that the other part is driven.
+  /// Adds a piece, or two if the speed has a minimum amid it, and rises behind it by more than four
+  /// standard errors: a free body slows down, so that the second part is driven. (A maximum may be
+  /// one of a body on its way back down a slope, which nears its last speed.)
   void add_piece(std::size_t begin, std::size_t end) {
     const Piece<of> p(samples_, begin, end, noise_);
     pieces_.push_back(p);
@@ -73,8 +74,8 @@ class Search {
     if (first * last >= 0) return;
     const double t = std::lerp(p.from, p.to, first / (first - last));
     const auto v = p.v(t);
-    const auto driven = p.v(last * v.value > 0 ? p.to : p.from);
-    const double rise = std::abs(driven.value - v.value);
+    const auto driven = p.v(p.to);
+    const double rise = std::abs(driven.value) - std::abs(v.value);
     if (v.value * driven.value <= 0 || rise < 4 * std::hypot(v.error, driven.error)) return;
     std::size_t joint = begin;
     while (samples_[joint].t < t) ++joint;
