@@ -17,8 +17,8 @@ cd "$(dirname "$0")/../../samples"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# The raw run of a sensor: SEED scenes in turn, with further options of simulate.
-raw() { simulate --scene "$scene" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$seed" "$@"; }
+# The raw run of a sensor.
+raw() { simulate --scene "$scene" --memory 5e-4 --damping 0.02 --sensor pasco --seed "$seed"; }
 coast() { smooth -q --coast -c x "$@"; }
 fit() { fitpower --check --route position -K "$K" -R 0.04 "$@"; }
 # A roll under a law, as an even sensor sees it: noise of 0.3 mm, by Park and Miller's generator and
