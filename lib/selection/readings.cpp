@@ -185,7 +185,8 @@ Spikes spikes_in(std::span<const Sample> run) {
     for (const Sample& s : run.subspan(i - beside, 2 * beside + 1)) near.push_back(s.y);
     medians.push_back(median(near));
     for (double& y : near) y = std::abs(y - medians.back());
-    if (std::abs(run[i].y - medians.back()) > std::max(6 * median(near), 3 * grid)) apart.push_back(run[i]);
+    if (std::abs(run[i].y - medians.back()) > std::max(6 * median(near), 3 * grid))
+      apart.push_back(run[i]);
     else apart.push_back({run[i].t, medians.back()});
   }
   Spikes spikes{0, apart.size()};
