@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The form of the code: the lengths of files, functions and lines, a header for each source, and
+# The form of the tree and of the code: the top level, the lengths of files, functions and lines, a header for each source, and
 # the licence line at the top of each file that is code or a page.
 #
 #   tests/house/form.sh            complains
@@ -42,6 +42,14 @@ if [ "${1:-}" = table ]; then
   done
   exit
 fi
+
+# A file that a command of somebody left there would be given away.
+for entry in $(git ls-files 2>/dev/null | cut -d / -f 1 | sort -u); do
+  case $entry in
+    .* | Makefile | cmd | lib | tests | samples | man | README.md | LICENSE) ;;
+    *) complain "$entry does not belong to the top level" ;;
+  esac
+done
 
 mapfile -t files < <(find cmd lib tests -name '*.cpp' -o -name '*.h')
 while read -r place; do
