@@ -15,11 +15,6 @@ using namespace rolling;
 
 namespace {
 
-/// The part of P_diss that the drag of the air takes, as the law has it [W].
-double power_to_air(const Law& law, const Ledger& now) {
-  return 0 + now.omega() * now.F_N() * law.air(now.v());
-}
-
 /// The arguments of a quantity.
 struct Moment {
   const Ledger& now;
@@ -61,7 +56,7 @@ constexpr Computed<double (*)(const Moment&)> quantities[] = {
     {"P_T4", "W", [](const Moment& m) { return m.now.P_T4(); }},
     {"P_diss", "W", [](const Moment& m) { return m.now.P_diss(); }},
     {"E_diss", "J", [](const Moment& m) { return m.balance.energy.to_mat(); }},
-    {"P_air", "W", [](const Moment& m) { return power_to_air(m.law.law, m.now); }},
+    {"P_air", "W", [](const Moment& m) { return m.now.P_air(m.law.law.air(m.now.v())); }},
     {"E_air", "J", [](const Moment& m) { return m.balance.to_air(); }},
     {"W_g", "J", [](const Moment& m) { return m.balance.energy.to_gravity(); }},
     {"Pi_S", "W/K", [](const Moment& m) { return m.now.P_diss() / m.temperature; }},
@@ -169,7 +164,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
         balance.energy.set_lifted(now.F_G() * (height - first_height));
       }
       balance.push(in[task.t], now);
-      if (law.law.has_drag()) balance.push_air(in[task.t], power_to_air(law.law, now));
+      if (law.law.has_drag()) balance.push_air(in[task.t], now.P_air(law.law.air(v)));
       beyond += std::abs(D) > body.R;
       of_row(now, balance, law);
     }

@@ -14,7 +14,10 @@ for program in dpkg-shlibdeps dpkg-deb; do
 done
 
 prefix=${PROGRAM_PREFIX-}
-folder=build/deb
+folder=
+trap '[ -z "$folder" ] || rm -rf "$folder"' EXIT
+mkdir -p build
+folder=$(mktemp -d build/deb.XXXXXX)
 tree=$folder/debian/rolling
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 architecture=$(dpkg --print-architecture)
@@ -24,7 +27,6 @@ maintainer=${DEBFULLNAME:-$(of_commit %an || id -un)}
 maintainer+=" <${DEBEMAIL:-$(of_commit %ae || echo "$(id -un)@$(uname -n)")}>"
 moment=$(cmd/install/date.sh)
 umask 022
-rm -rf $folder
 bindir=/usr/bin mandir=/usr/share/man datadir=/usr/share docdir=/usr/share/doc/rolling \
   DESTDIR=$tree cmd/install/install.sh install >/dev/null
 rm "$tree"/usr/share/doc/rolling/installed-files*

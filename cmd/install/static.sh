@@ -8,8 +8,10 @@ unset CDPATH
 cd "$(dirname "$0")/../.."
 case ${1-} in '' | *[!A-Za-z0-9_]*) echo "static: '${1-}' is no architecture" >&2 && exit 2 ;; esac
 name=rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$1
-folder=build/static/$1
-rm -rf "$folder"
+folder=
+trap '[ -z "$folder" ] || rm -rf "$folder"' EXIT
+mkdir -p build
+folder=$(mktemp -d build/archive.XXXXXX)
 bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \
   DESTDIR=$folder/$name cmd/install/install.sh install >/dev/null
 rm "$folder/$name/installed-files"

@@ -2,12 +2,14 @@
 // The `##` line of fitpower: of what its rows were made.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "contact/law.h"
 #include "fit/input.h"
+#include "text/reader.h"
 
 namespace rolling {
 
@@ -22,5 +24,27 @@ std::string line_of_fit(const std::string& route, const FitOptions&,
 /// line, if it has no numbers, or if its numbers are those of more runs than rows. Throws Error for
 /// a line that fitpower does not write.
 std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows);
+
+/// The same for the rows of a run of the file that a reader reads. Rows without numbers, of runs
+/// that were not fitted, have a place in the line too, and are passed over by the reader.
+class ContactsOfRun {
+ public:
+  explicit ContactsOfRun(const Reader& in) : in_(in), left_out_(in.left_out()) {}
+  /// Notes the present row.
+  void take_row() { places_.push_back(places_.size() + in_.left_out() - left_out_); }
+  /// One for each row that was noted, behind the last row of the run; none if they are not known.
+  std::vector<ShiftOf> contacts() const {
+    const auto all = contacts_of_rows(in_.history(), places_.size() + in_.left_out() - left_out_);
+    std::vector<ShiftOf> of_rows;
+    for (const std::size_t place : places_)
+      if (!all.empty()) of_rows.push_back(all[place]);
+    return of_rows;
+  }
+
+ private:
+  const Reader& in_;
+  std::size_t left_out_;
+  std::vector<std::size_t> places_;
+};
 
 }  // namespace rolling

@@ -127,19 +127,18 @@ class RowReader {
 std::vector<LawOfFile> read_rows_of_run(Tool& tool, Reader& in, const RowReader& reader,
                                         const ShiftOf& given) {
   std::vector<LawOfFile> rows;
-  std::vector<std::size_t> places;  // in the file, where runs that were not fitted have rows too
-  const std::size_t left_out = in.left_out();
+  ContactsOfRun of_run(in);
   while (in.next()) {
-    places.push_back(rows.size() + in.left_out() - left_out);
+    of_run.take_row();
     rows.push_back(reader.read());
   }
-  const auto contacts = contacts_of_rows(in.history(), rows.size() + in.left_out() - left_out);
+  const std::vector<ShiftOf> contacts = of_run.contacts();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     LawOfFile& row = rows[i];
     row.contact = given;
     if (!contacts.empty()) {
       row.has_contact = true;
-      const std::string others = take_contact(tool, contacts[places[i]], row.contact);
+      const std::string others = take_contact(tool, contacts[i], row.contact);
       if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
     }
     // The slope and the wind of a row are fitted: they take precedence over those of a scene.

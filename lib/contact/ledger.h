@@ -65,7 +65,10 @@ class Ledger {
   double P_T2() const { return 0 - P_R2(); }            ///< used to pump p_y in [W]
   double P_T3() const { return I_E1(); }                ///< released by p_x in the mat [W]
   double P_T4() const { return I_E2(); }                ///< released by p_y in the mat [W]
-  double P_diss() const { return I_E1() + I_E2(); }     ///< dissipated in the mat [W] (Eq. 22)
+  /// The part of P_diss that goes into the air, for the part D_air [m] of D that its drag makes
+  /// [W].
+  double P_air(double D_air) const { return 0 + omega() * F_N() * D_air; }
+  double P_diss() const { return I_E1() + I_E2(); }  ///< dissipated in the mat [W] (Eq. 22)
   double F_g() const { return body_.m * body_.g * incline_.sin; }  ///< weight along the mat [N]
   double P_g() const { return F_g() * v_; }  ///< power against gravity on an incline [W]
 

@@ -125,9 +125,9 @@ std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Er
 /// The p of the whiteness of the noise, and the estimator that suits it.
 std::pair<double, Errors> tested(const Fitted& fit, const SeenNoise& seen) {
   const auto& [noise, runs] = std::tie(seen.innovations, seen.runs);
-  const Errors white = fit.noise->added().inferred               ? Errors::differences
-                       : seen.left.empty() || fit.noise->known() ? Errors::filters
-                                                                 : Errors::classical;
+  Errors white = Errors::classical;
+  if (seen.left.empty() || fit.noise->known()) white = Errors::filters;
+  if (fit.noise->added().inferred) white = Errors::differences;
   double whiteness = ljung_box(noise, seen.taken, runs);
   if (fit.minimum.f.size() < 30) return {whiteness, white};
   const bool uneven = breusch_pagan(noise, runs, seen.left) <= levels::uneven;

@@ -12,9 +12,8 @@ namespace rolling {
 Reference reference(const Scene& scene, std::size_t n, double end) {
   const auto motion = start(scene, best_method(scene), 1e-13);
   Reference result{{}, {}, motion->stop_time()};
-  const double last = result.stop > 1000 * end ? end
-                      : scene.bulge.length > 0 ? result.stop
-                                               : 1.2 * result.stop;
+  double last = scene.bulge.length > 0 ? result.stop : 1.2 * result.stop;
+  if (result.stop > 1000 * end) last = end;
   for (std::size_t i = 0; i < n; ++i) {
     result.times.push_back(last * static_cast<double>(i) / static_cast<double>(n - 1));
     motion->seek(result.times.back());

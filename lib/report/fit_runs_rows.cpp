@@ -70,10 +70,9 @@ FitRows read_rows(Tool& tool) {
   while (in.next_run()) {
     const auto name = in.find("run");
     const std::size_t first = rows.runs.size();
-    const std::size_t left_out = in.left_out();
-    std::vector<std::size_t> places;  // in the file, where runs that were not fitted have rows too
+    ContactsOfRun of_run(in);
     while (in.next()) {
-      places.push_back(rows.runs.size() - first + in.left_out() - left_out);
+      of_run.take_row();
       rows.add(name ? std::string(in.text(*name)) : in.where(), {in[a], in[sigma_a]},
                {in[b], in[sigma_b]}, in[corr]);
       const auto parameters = static_cast<double>(  // what is fixed has no error
@@ -82,9 +81,8 @@ FitRows read_rows(Tool& tool) {
       rows.laws.back().rms = in[rms];
       rows.laws.back().freedom = in[n] - parameters;
     }
-    const auto contacts = contacts_of_rows(in.history(), places.size() + in.left_out() - left_out);
-    for (std::size_t i = 0; i < places.size() && !contacts.empty(); ++i)
-      rows.runs[first + i].shift_of = contacts[places[i]];
+    const std::vector<ShiftOf> contacts = of_run.contacts();
+    for (std::size_t i = 0; i < contacts.size(); ++i) rows.runs[first + i].shift_of = contacts[i];
   }
   if (rows.laws.size() < 2)
     fail("{}: a joint law is that of two or more", counted(rows.laws.size(), "row"));

@@ -212,14 +212,15 @@ void Lines::check_bytes() const {
   if (const std::string_view kind = number_ == 1 && !separators_.empty() ? other_kind(text_) : "";
       !kind.empty())
     fail<InputError>("{}:1: this is {} ({}): export its table as CSV", name(), kind, shown(text_));
-  const char* const wrong =
-      text_.find('\0') < text_.size()
-          ? "a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what is "
-            "packed, make UTF-16 UTF-8 (iconv -f UTF-16)"
-      : text_.find('\r') < text_.size()
-          ? "a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')"
-          : nullptr;
-  if (wrong) fail<InputError>("{}:{}: {}", name(), number_, wrong);
+  if (text_.find('\0') < text_.size())
+    fail<InputError>(
+        "{}:{}: a NUL byte: this is no text of columns; export a spreadsheet as CSV, unpack what "
+        "is packed, make UTF-16 UTF-8 (iconv -f UTF-16)",
+        name(), number_);
+  if (text_.find('\r') < text_.size())
+    fail<InputError>(
+        "{}:{}: a carriage return within the line; make the line ends LF first (tr '\\r' '\\n')",
+        name(), number_);
 }
 
 void refuse_error_line(const Lines& lines) {

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The form of the tree and of the code: the top level, the lengths of files, functions and lines, a header for each source, and
-# the licence line at the top of each file that is code or a page.
+# The form of the tree and of the code: the top level, the lengths of files, functions and lines, a
+# header for each source, and the licence line at the top of each file that is code or a page.
 #
 #   tests/house/form.sh            complains
 #   tests/house/form.sh table      prints the figures of each part instead
