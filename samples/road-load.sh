@@ -13,7 +13,7 @@
 #   --height FILE    height of the road [m] over the way x [m]; --x0 X,... where the runs begin
 #   --wind W|fit     head wind of OUT [m/s]; or the wind that all runs have in common
 #   --column NAME=COLUMN   which column serves as t or v, as --use of the tools; may be repeated
-#   -T C -p KPA      temperature and pressure of the day: then the load at the standard is told, too
+#   -T C -p KPA      temperature and pressure of the day: then it prints the load at the standard, too
 #   --standard NAME  gtr15 (20 C, 100 kPa) or cfr (40 CFR 1066.805: 20 C, 98.21 kPa)
 #   --test-mass TM   mass of the standard [kg] (MASS)
 #   --anemometer W   mean speed of the wind that was measured [m/s] (0), if it is not fitted

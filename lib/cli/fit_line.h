@@ -19,7 +19,7 @@ namespace rolling {
 std::string line_of_fit(const std::string& route, const FitOptions&,
                         const std::vector<std::optional<ShiftOf>>& of_runs);
 
-/// The body, the slope and the geometry of which each of `rows` rows was made, by the line of
+/// The body, the slope and the geometry behind each of `rows` rows, as told by the line of
 /// fitpower above them; NaN for a slope and a wind that are in the rows. None if there is no such
 /// line, if it has no numbers, or if its numbers are those of more runs than rows. Throws Error for
 /// a line that fitpower does not write.

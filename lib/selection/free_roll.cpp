@@ -39,7 +39,7 @@ constexpr std::size_t at_once = 1000;
 
 std::size_t size_of_means(std::size_t n) { return (n + at_once - 1) / at_once; }
 
-/// Refuses a run of which more than this share of the readings are off the motion.
+/// Refuses a run if more than this share of its readings are off the motion.
 void refuse_spikes(std::span<const Sample> run, double share) {
   const Spikes spikes = spikes_in(run);
   if (static_cast<double>(spikes.found) <= share * static_cast<double>(spikes.among)) return;
@@ -51,7 +51,7 @@ void refuse_spikes(std::span<const Sample> run, double share) {
       spikes.found, spikes.among, spikes.first.y, spikes.first.t);
 }
 
-/// Refuses positions of which a counter has started over.
+/// Refuses positions whose counter has started over.
 void refuse_start_over(std::span<const Sample> run) {
   const auto over = start_over(run);
   if (!over) return;

@@ -21,9 +21,10 @@ double product(std::span<const double> run, std::size_t lag) {
   return run.size() > lag ? dot(run.first(run.size() - lag), run.subspan(lag)) : 0;
 }
 
-/// The probability that of the chi-squared of one lag and that of all lags, of which it is a part,
-/// the smaller probability is at most this. The other lags are independent of the first, z: the
-/// integral over z of the normal density times the distribution of the others.
+/// Two sums are tested: z^2 of the first lag, and z^2 with those of the other lags. Each has a p.
+/// This is the probability that the smaller p is at most `least`, for white noise. The other lags
+/// are independent of z, so it is an integral over z of the normal density times their
+/// distribution.
 double smaller_of_two(double least, std::size_t lags) {
   if (lags == 1 || least <= 0 || least >= 1) return least;
   const double others = static_cast<double>(lags - 1);
