@@ -167,8 +167,6 @@ void check_options(const Tool& tool, const Task& task) {
     fail("sigma_x and sigma_v go with the methods closed and exact, without --memory");
   if (task.roll.bulge.length == 0 && task.roll.bulge.damping > 0)
     fail("--damping goes with --memory");
-  if (tool.on_command_line("sensor") && task.way < 0)
-    fail("v0 = {}: --sensor looks after a body that rolls away from it", -task.roll.v0);
 }
 
 /// The time where the rows end: `until`, or the stop if that is not given.
@@ -185,6 +183,14 @@ double last_time(const Task& task, Motion& motion, double until) {
   double end = std::isnan(until) ? t0 + stop : until;
   while (end - t0 < stop) end = std::nextafter(end, INFINITY);  // v is 0 there
   return end;
+}
+
+/// How far the body has rolled at its stop, or at `end` if that comes first.
+double way_to_the_stop(Motion& motion, double end) {
+  motion.seek(0);
+  const double begin = motion.position();
+  motion.seek(std::min(end, motion.stop_time()));
+  return motion.position() - begin;
 }
 
 /// Says when and where the body comes to rest, or turns, and how well the law tells it.
@@ -337,6 +343,7 @@ int main(int argc, char** argv) {
       report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
     } else if (sensor) {
       sonar.seed = seed;
+      if (task.way < 0) sonar.towards = way_to_the_stop(*task.start(), end);
       if (!to_the_stop) sonar.until = until;
       write_run(tool.out, *motion, sonar);
     } else if (times_file.empty()) {

@@ -36,15 +36,18 @@ void sonar_run(Motion& motion, const SonarOptions& o,
   const double rows = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
   if (!(rows >= 1 && rows <= 1e9)) fail("the sensor would make {:.3g} rows, not 1 to 1e9", rows);
 
-  const auto position = [&](double t) {
-    if (t <= o.rest_before) return o.start;
+  const auto way = [&](double t) -> double {
+    if (t <= o.rest_before) return 0;
     if (t < release) {  // v = v0 sin^2(pi u / (2 push)), u the time since the hand took hold
       const double u = t - o.rest_before;
-      return o.start +
-             v0 / 2 * (u - o.push / std::numbers::pi * std::sin(std::numbers::pi * u / o.push));
+      return v0 / 2 * (u - o.push / std::numbers::pi * std::sin(std::numbers::pi * u / o.push));
     }
     motion.seek(t - release);
-    return o.start + v0 / 2 * o.push + (motion.position() - x0);
+    return v0 / 2 * o.push + (motion.position() - x0);
+  };
+  const auto distance = [&](double t) {
+    if (!o.towards) return o.start + way(t);
+    return o.start + v0 / 2 * o.push + *o.towards - way(t);
   };
 
   silence_gsl();
@@ -58,7 +61,7 @@ void sonar_run(Motion& motion, const SonarOptions& o,
     if (i < n) {
       SonarSample& now = nth(i);
       now = {static_cast<double>(i) / o.rate, {}, {}};
-      const double x = position(now.t) + gsl_ran_gaussian_ziggurat(random.get(), o.noise);
+      const double x = distance(now.t) + gsl_ran_gaussian_ziggurat(random.get(), o.noise);
       if (gsl_rng_uniform(random.get()) >= o.lost) now.x = rounded(x, o.resolution);
     }
     if (i < 2) continue;

@@ -21,11 +21,14 @@ struct SonarOptions {
   /// Time from the end of the push to the end of the run [s]; infinite: the run ends
   /// rest_after after the stop.
   double until = INFINITY;
+  /// The way from the release to the stop [m] of a body that rolls towards the sensor, as in the
+  /// paper: distances fall, to `start` at the stop. Without it the body rolls away from `start`.
+  std::optional<double> towards;
 
   static constexpr double rest_before = 1;  ///< at rest before the push [s]
   static constexpr double push = 0.5;       ///< duration of the push [s]
   static constexpr double rest_after = 1;   ///< at rest after the stop [s]
-  static constexpr double start = 0.3;      ///< distance from the sensor before the push [m]
+  static constexpr double start = 0.3;      ///< distance at the beginning, or at the stop [m]
 };
 
 /// One row; x or v is missing where the echo was lost.

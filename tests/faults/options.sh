@@ -127,7 +127,6 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --dt 1e-10|these are 7.65e+10 rows
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --dt 1e-300 --until 1e300|rows; the most is 1e9
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --until 1e8|these are 1e+10 rows
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --until -1|--until -1 is before the roll, which begins at 0
-simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 -1 --sensor pasco|v0 = -1: --sensor looks after a body that rolls away from it
 simulate -K 0.5 -R 0.04 -a 0 -b 0.2 --v0 1|'0' must be greater than 0
 simulate -K 0.5 -R 0.04 -a -1 -b 0.2 --v0 1|'-1' must be greater than 0
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --columns t,t|t is there twice
