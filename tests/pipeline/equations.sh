@@ -124,7 +124,8 @@ near 13 "$(printf 't\n0.7\n' | simulate --scene "$scene" --at - --columns v | la
 near 23 "$(simulate --scene "$scene" | energy-ledger --scene "$scene" --columns E_diss | last 6)" \
   "$(awk 'BEGIN { printf "%.17g", 0.5 * 1.5 * 1.375 * 0.25 }')" 1e-6
 
-# The table of symbols: SYMBOL, UNIT, MEANING and `TOOL COLUMN`, two blanks or more apart.
+# The table of symbols: SYMBOL, UNIT, MEANING and `TOOL COLUMN` or a column of energy-ledger, two
+# blanks or more apart.
 simulate --scene "$scene" >"$scratch/roll"
 symbols=0
 while read -r tool column; do
@@ -139,19 +140,19 @@ while read -r tool column; do
   esac >"$scratch/out" && grep '^#' "$scratch/out" | tail -n 1 | tr '\t' '\n' | sed 's/^# //; s/\[.*//' |
     grep -qx "$column" || { echo "rolling-motion(7): $tool does not print $column" && wrong=1; }
 done < <(sed -n '/^\.Ss Symbols/,/^\.Ed/p' man/rolling-motion.7 |
-  sed -nE 's/^.*  ([a-z-]+ [A-Za-z0-9_]+)$/\1/p')
+  sed -nE '/meaning  *from$/d; s/^.*  ([A-Za-z][A-Za-z0-9_]*)$/\1/; s/^[A-Z_a-z]*$/ledger &/
+    s/^.*  ([a-z-]+ [A-Za-z0-9_]+)$/\1/; /^[a-z-]+ [A-Za-z0-9_]+$/p')
 [ "$symbols" -ge 30 ] ||
   { echo "only $symbols symbols in the table of rolling-motion(7)" && wrong=1; }
 
-# And the commands of its table of equations.
+# And the columns and commands of its table of equations.
 commands=0
 while IFS= read -r line; do
   commands=$((commands + 1))
+  [[ $line == *' '* ]] || line="roll | energy-ledger --scene $scene --exact --columns $line"
   line=${line/#roll/simulate --scene $scene --exact}
-  [[ $line != *'ledger '* ]] ||
-    line=${line/ledger /energy-ledger --scene $scene --exact --columns }
   bash -o pipefail -c "$line" >/dev/null || { echo "fails: $line" && wrong=1; }
 done < <(sed -n '/^\.Ss Which command/,/^\.Ed/p' man/rolling-motion.7 |
-  sed -nE 's/^[0-9, ]*  ([a-z].*)$/\1/p')
-[ "$commands" -ge 9 ] || { echo "only $commands commands in rolling-motion(7)" && wrong=1; }
+  sed -nE 's/^[0-9, ]*  ([A-Za-z].*)$/\1/p')
+[ "$commands" -ge 10 ] || { echo "only $commands commands in rolling-motion(7)" && wrong=1; }
 exit $wrong
