@@ -124,7 +124,7 @@ std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<Run> runs,
       one.result = fit(route, one.runs, options);
     } catch (const Error& error) {
       if (!each) throw;
-      tool.say(one.runs.front().name, error.what());
+      tool.say(one.runs.front().name, tool.told(error));
     }
   return fits;
 }

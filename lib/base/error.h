@@ -9,27 +9,48 @@
 
 namespace rolling {
 
-class Error : public std::runtime_error {
- public:
+struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An error whose message names the file, and the line where there is one.
-class InputError : public Error {
- public:
+/// An error whose message is complete: no row of the input is to be named beside it.
+struct CompleteError : Error {
   using Error::Error;
+};
+/// It names the file, and the line where there is one.
+struct InputError : CompleteError {
+  using CompleteError::CompleteError;
+};
+/// It is one of the options, whatever has been read.
+struct OptionError : CompleteError {
+  using CompleteError::CompleteError;
 };
 
-/// An error of the options, which names no row, whatever has been read.
-class OptionError : public Error {
- public:
-  using Error::Error;
-};
+// Numeric code knows no option: it throws what the readings show, and cli/tool.cpp has the way out.
 
 /// The readings show no motion of the kind that is asked for: perhaps the columns are not those
 /// that are meant.
-class MotionError : public Error {
- public:
+struct MotionError : Error {
+  using Error::Error;
+};
+/// They are hardly those of one roll: no law comes out.
+struct NotOneRoll : MotionError {
+  using MotionError::MotionError;
+};
+/// They do not determine the exponent.
+struct LooseExponent : MotionError {
+  using MotionError::MotionError;
+};
+/// There is no roll among them.
+struct NoFreeRoll : MotionError {
+  using MotionError::MotionError;
+};
+/// They are of a body that comes back.
+struct WayBack : MotionError {
+  using MotionError::MotionError;
+};
+/// One of them is off the motion of the others.
+struct ReadingOff : Error {
   using Error::Error;
 };
 

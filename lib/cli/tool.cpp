@@ -7,7 +7,9 @@
 #include <cfenv>
 #include <csignal>
 #include <exception>
+#include <map>
 #include <new>
+#include <typeindex>
 #include <typeinfo>
 #include <utility>
 
@@ -88,7 +90,32 @@ void note_memory_has_run_out() {
   throw std::bad_alloc();
 }
 
+/// What a user can do about the errors of numeric code.
+const std::string choose_roll =
+    ": are all of these rows of one free roll that slows down (up a slope and back: --slope fit)? "
+    "Choose it with smooth --coast, or with --from and --to";
+const std::map<std::type_index, std::string> ways_out{
+    {typeid(NotOneRoll), choose_roll},
+    {typeid(LooseExponent), choose_roll + "; or fix it, --fix b=0"},
+    {typeid(NoFreeRoll), ": choose the roll by its times (--from, --to)"},
+    {typeid(WayBack),
+     ": on a slope, --slope S or --slope fit; else the roll alone (smooth --coast, or --to)"},
+    {typeid(ReadingOff),
+     ": look at it, and leave it out (smooth --outliers or --from), or fit with --robust"}};
+
 }  // namespace
+
+std::string Tool::told(const Error& error) const {
+  const auto way_out = ways_out.find(typeid(error));
+  if (way_out == ways_out.end()) return error.what();
+  const auto is_coast = [](const std::string& line) {
+    return line.ends_with(" coast") || line.ends_with(" rolls");
+  };
+  if (readers_.empty() || std::ranges::none_of(readers_.back()->history(), is_coast))
+    return error.what() + way_out->second;
+  return error.what() +
+         replace_all(way_out->second, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
+}
 
 /// Flushes the output and prints the counts; returns the exit status.
 int Tool::finish(int status) {
@@ -108,12 +135,12 @@ int Tool::finish(int status) {
 /// The message of an error. One that names no place is about the present row, and may come from
 /// columns that were taken without a name.
 std::string Tool::message_of(const Error& error) const {
-  const bool of_motion = typeid(error) == typeid(MotionError);
-  if (readers_.empty() || (typeid(error) != typeid(Error) && !of_motion)) return error.what();
+  if (readers_.empty() || dynamic_cast<const CompleteError*>(&error)) return told(error);
   const Reader& in = *readers_.back();
   std::string text = in.where();
   if (!text.empty()) text += ": ";
-  text += error.what();
+  text += told(error);
+  const bool of_motion = dynamic_cast<const MotionError*>(&error);
   if (of_motion && !fixed_values().empty()) text += fmt::format(" (given: {})", fixed_values());
   if (of_motion && !in.assumed().empty())
     text += fmt::format(" ({}; for other columns say --use)", in.assumed());

@@ -178,6 +178,8 @@ class Tool {
 
   /// One line of printable ASCII on standard error, at most 512 bytes.
   void say(const std::string& text);
+  /// What an error says, and the way out of its kind, without steps that have been taken already.
+  std::string told(const Error&) const;
   /// A line about a run, which waits for the next of say() or the end: see LinesOfRuns.
   void say(const std::string& run, const std::string& text) { waiting_.add(run, text); }
   /// A warning: the same line, unless -q is given.
@@ -210,9 +212,9 @@ class Tool {
   /// Sets the options that are not on the command line from the scene file; ignores keys without
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();
-  void doubt_radii();  ///< that are hardly meant in metres
-  std::string message_of(const Error&) const;
-  std::string fixed_values() const;  ///< `--fix a=2e-3, --slope 0.1`: on the command line
+  void doubt_radii();                          ///< that are hardly meant in metres
+  std::string message_of(const Error&) const;  ///< with its place
+  std::string fixed_values() const;            ///< `--fix a=2e-3, --slope 0.1`: on the command line
   /// Refuses `K=0.5`, which is meant as an option, unless there is a file of that name.
   void refuse_misplaced(const std::string& file) const;
   Reader& open(ReaderOptions, std::vector<std::string> order);

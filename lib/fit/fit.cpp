@@ -100,7 +100,7 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   for (const std::vector<double>& row : result.correlations)
     for (const double correlation : row) all += has_errors ? correlation : 0;
   if (!std::isfinite(all))
-    fail("the fit gives no finite {}, or no finite errors: {}", names_of(form), choose_the_roll);
+    fail<NotOneRoll>("the fit gives no finite {}, or no finite errors", names_of(form));
   const auto shown = [&](const Estimate& c) {
     return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
   };
@@ -124,9 +124,8 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     if (const Interval* profile = not_visited(j))
       known = known && (std::isfinite(profile->lower) || std::isfinite(profile->upper));
     if (!known)
-      fail<MotionError>("the data do not determine {}, which comes out as {}: {}{}",
-                        form.coefficients[j].name, shown(c), choose_the_roll,
-                        options.fits_power() ? "; or fix it, --fix b=0" : "");
+      fail<LooseExponent>("the data do not determine {}, which comes out as {}",
+                          form.coefficients[j].name, shown(c));
   }
 }
 
@@ -151,9 +150,9 @@ void require_roll(const Fitted& found) {
       fastest = std::max(fastest, std::abs(roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) /
                                       (run.t[i + 1] - run.t[i]));
     if (v0 > levels::v0_over_speeds * fastest)
-      fail(
-          "{}no reading comes near v0 = {:.3g} m/s: is the first one, at t = {} s, of the roll? "
-          "Leave it out (smooth --outliers or --from), or fit with --robust",
+      fail<ReadingOff>(
+          "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, is hardly of the "
+          "roll",
           run.place, found.v0[r].value, run.origin);
     if (roll.radius_time(last) < last && roll.radius_speed() > rest * v0)
       fail(
@@ -167,7 +166,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   Fitted found = fit_route(route, runs, options);
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
-  OffReadings off{};  // --robust lets them count little
+  OffReadings off{};  // a robust fit lets them count little
   if (!options.robust) off = off_readings(found);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
@@ -220,9 +219,8 @@ FitResult fit(Route route, const std::vector<Run>& runs, const FitOptions& optio
     if (options.robust) throw;
     const OffReadings off = off_robust_roll(route, runs, options);
     if (off.count == 0 || off.count > single) throw;
-    fail(
-        "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others: "
-        "look at it, and leave it out (smooth --outliers), or fit with --robust",
+    fail<ReadingOff>(
+        "{}the reading at t = {:.12g} s is {:.2g} standard deviations off the roll of the others",
         runs.size() > 1 ? fmt::format("run {}: ", runs[off.run].name) : "", off.time, off.distance);
   }
 }

@@ -53,14 +53,14 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
   std::vector<Response> responses = responses_of(runs);
   const bool known = !responses.empty();
   if (options.fit_slope && route == Route::loglog)
-    fail("the slope shows in a roll alone, not in a line through ln D: --route shift");
+    fail("the slope shows in a roll alone, not in a line through ln D: take the route shift");
   if (options.fit_slope && route == Route::shift && !known)
     fail("the slope shows in a roll alone: on this route `##` lines must say how D was made");
   if ((options.fit_wind || runs.front().body.wind != 0) && !is_trajectory(route))
-    fail("the wind shows in a roll alone: --route velocity or position");
+    fail("the wind shows in a roll alone: take the route velocity or position");
   if (options.robust && known)
     fail(
-        "--robust judges single readings, and a filter spreads an outlier over many: fit the "
+        "a robust fit judges single readings, and a filter spreads an outlier over many: fit the "
         "column that was not smoothed");
   if (route == Route::loglog) return fit_log_log(runs, options, std::move(responses));
   if (!known && route == Route::shift) return fit_shift(runs, options);
@@ -76,10 +76,9 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
 Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   if (options.fits_power()) return fit_power(route, runs, options);
   if (route == Route::loglog)
-    fail("a straight line of logarithms is a law a v^b: fit D = {} with --route shift",
+    fail("a straight line of logarithms is a law a v^b: fit D = {} on the route shift",
          options.law->formula);
-  if (options.robust)
-    fail("D = {} is fitted by squares only, not with --robust", options.law->formula);
+  if (options.robust) fail("D = {} is fitted by squares only, not robustly", options.law->formula);
   if (options.a || options.b)
     fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
   return fit_of_law(fit_power(route, runs, options), *options.law);

@@ -72,10 +72,7 @@ struct Thinned {
 };
 
 [[noreturn]] void refuse_way_back(const ObservedRun& run) {
-  fail(
-      "{}the body comes back, which a level mat does not do: on a slope, --slope S or --slope "
-      "fit; else the roll alone (smooth --coast, or --to)",
-      run.place);
+  fail<WayBack>("{}the body comes back, which a level mat does not do", run.place);
 }
 
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
@@ -197,7 +194,7 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
     if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust && rss > square)
       refuse_way_back(run);
   if (std::isfinite(rss) && rss >= at_rest * (1 - 1e-9))
-    fail("no law a v^b comes near the data: {}", choose_the_roll);
+    fail<NotOneRoll>("no law a v^b comes near the data");
 }
 
 }  // namespace

@@ -40,11 +40,6 @@ struct System {
   }
 };
 
-/// The way out of data that no law fits.
-inline constexpr const char* choose_the_roll =
-    "are all of these rows of one free roll that slows down (up a slope and back: --slope fit)? "
-    "Choose it with smooth --coast, or with --from and --to";
-
 /// The residuals f at theta, and J = Q R there. R and not J^T J, because the condition number of
 /// the normal equations is the square of that of J.
 struct Minimum {

@@ -83,7 +83,7 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
   if (method.kind == Method::solver)
     return std::make_unique<IntegratedRoll>(scene, method.stepper, rtol, most_steps);
   if (method.kind == Method::closed && !has_closed_form(scene))
-    fail("the closed form is that of a law a v^b with A = 1 on a level mat: take --method exact");
+    fail("the closed form is that of a law a v^b with A = 1 on a level mat: take the method exact");
   return std::make_unique<SpeedRoll>(scene);
 }
 

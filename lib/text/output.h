@@ -16,9 +16,8 @@
 namespace rolling {
 
 /// Standard output cannot be written. The message then names no row.
-class OutputError : public Error {
- public:
-  using Error::Error;
+struct OutputError : CompleteError {
+  using CompleteError::CompleteError;
 };
 
 /// The header: `# t[s]<TAB>v[m/s]`.

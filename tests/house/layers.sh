@@ -43,7 +43,9 @@ for room in lib/*/; do
     case $room in
       text | cli | report) ;;
       *) grep -qE '# *include <(iostream|fstream|cstdio|stdio\.h|unistd\.h|fcntl\.h)>' "$file" &&
-        complain "$file: only lib/text and lib/cli see files" ;;
+        complain "$file: only lib/text and lib/cli see files"
+        option=$(grep -nEo '"([^"\\]|\\.)*"' "$file" | grep -m 1 -e '--[a-z]') &&
+          complain "$file: numeric code knows no option: $option" ;;
     esac
     case $room in
       base | ode | fit | sensor | contact | motion | statistics) ;;
