@@ -128,7 +128,7 @@ figures/%.png: samples/figures/%.sh $(drawn_from)
 	$(call draw,png)
 
 # One page with the table, the energy check and the figures in it; those of work-precision too
-# where they have been made. It links to the manual pages where mandoc can make them.
+# where they have been made. It and the manual pages link to each other where mandoc can make them.
 report: figures/report.html
 figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.svg) \
                      $(wildcard build/work-precision/*.svg) \
@@ -136,6 +136,7 @@ figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.sv
 	PATH="$$PWD/bin:$$PATH" $< figures \
 	  $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && \
 	  mv $@.new $@
+	$(if $(shell command -v mandoc),cmd/install/html.sh figures/man)
 
 # The manual pages as one site of HTML.
 html: figures/man/index.html

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # html.sh FOLDER: the manual pages as one site of HTML in FOLDER, made by mandoc: NAME.SECTION.html
-# for each page and index.html. A page of another project (awk, sed, ...) is linked at
-# manpages.debian.org.
+# for each page, and index.html with them, README.md as text, and the report if it stands above
+# FOLDER. A page of another project (awk, sed, ...) is linked at manpages.debian.org.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -11,36 +11,68 @@ command -v mandoc >/dev/null ||
   { echo "html: mandoc is not installed; make setup html installs it" >&2; exit 2; }
 mkdir -p -- "$1"
 to=$(cd -- "$1" && pwd)
-pages=(man/*.[157])
+# In the order in which one reads them.
+pages=(man/rolling.7 man/smooth.1 man/differentiate.1 man/shift-from-accel.1 man/fitpower.1
+  man/simulate.1 man/energy-ledger.1 man/rolling-recipes.7 man/rolling-columns.5 man/rolling-fits.7
+  man/rolling-motion.7)
+
+# about PAGE: what its title says, as HTML.
+about() {
+  sed -n 's/^\.Nd //p' "$1" | sed 's/\\-/-/g; s/\\(ha/^/g; s/&/\&amp;/g; s/</\&lt;/g'
+}
 
 cat >"$to/pages.css" <<'END'
+:root { --text: #1a1a1a; --page: #fff; --box: #f3f1ec; --link: #005a9c; --faint: #555;
+  --edge: rgba(0, 0, 0, .35); }
+@media (prefers-color-scheme: dark) {
+  :root { --text: #e6e3dd; --page: #16181b; --box: #23262b; --link: #7cb8ef; --faint: #a8a49c;
+    --edge: rgba(255, 255, 255, .45); }
+}
 body { max-width: 52rem; margin: 0 auto; padding: 1rem; font: 1rem/1.5 system-ui, sans-serif;
-  color: #1a1a1a; background: #fff; }
-a { color: #005a9c; }
-pre, code, .Fl, .Cm, .Ql { font-family: ui-monospace, monospace; font-size: .92em; }
-pre { background: #f3f1ec; padding: .6rem .8rem; overflow-x: auto; }
+  color: var(--text); background: var(--page); }
+a { color: var(--link); }
+h1 > a, h2 > a, dt > a, td > a.permalink { color: inherit; text-decoration: none; }
+pre, code { font-family: ui-monospace, monospace; font-size: .92em; }
+.Fl, .Xr, .option { white-space: nowrap; }
+.Li, .Pa { overflow-wrap: anywhere; }
+/* What is wider than the page scrolls, and a shadow at an edge shows that there is more. */
+pre, .Bl-column { display: block; overflow-x: auto; --ground: var(--page);
+  background:
+    linear-gradient(to right, var(--ground) 40%, transparent) 0 0 / 2rem 100%,
+    linear-gradient(to left, var(--ground) 40%, transparent) 100% 0 / 2rem 100%,
+    linear-gradient(to right, var(--edge), transparent) 0 0 / .6rem 100%,
+    linear-gradient(to left, var(--edge), transparent) 100% 0 / .6rem 100%,
+    var(--ground);
+  background-repeat: no-repeat; background-attachment: local, local, scroll, scroll, local; }
+pre { --ground: var(--box); padding: .6rem .8rem; }
+.Bl-column td { white-space: nowrap; }
 table { border-collapse: collapse; }
 td, th { padding: .1rem .8rem .1rem 0; vertical-align: top; text-align: left; }
-.head, .foot { width: 100%; color: #555; }
+.head, .foot { width: 100%; color: var(--faint); }
+.head td:last-child { text-align: right; }
 h1 { font-size: 1.2rem; margin-top: 1.8rem; }
 h2 { font-size: 1.05rem; }
 dd { margin-left: 2rem; }
-@media (max-width: 36rem) { body { padding: .7rem; } dd { margin-left: 1rem; } }
-@media (prefers-color-scheme: dark) {
-  body { color: #e6e3dd; background: #16181b; }
-  a { color: #7cb8ef; }
-  pre { background: #23262b; }
-  .head, .foot { color: #a8a49c; }
+@media (max-width: 36rem) {
+  body { padding: .7rem; }
+  dd { margin-left: 1rem; }
+  .head-vol { display: none; }
 }
 END
-# mandoc links to a page of this site where it finds its source in the folder that it runs in.
+# mandoc links to a page of this site where it finds its source in the folder that it runs in. No
+# line breaks within an option.
 for page in "${pages[@]}"; do
   name=${page#man/}
+  title="${name%.*}(${name##*.}): $(about "$page")"
   (cd man && mandoc -Thtml \
     -O 'style=pages.css,man=%N.%S.html;https://manpages.debian.org/%N.%S' "$name") |
-    sed 's/^<html>/<html lang="en">/
-      s/<body>/<body><p><a href="index.html">rolling: all pages<\/a><\/p>/' >"$to/$name.html"
+    sed -E "s|^  <title>.*|  <title>${title//&/\\&}</title>|"'
+      s/^<html>/<html lang="en">/
+      s|<body>|<body><p><a href="index.html">rolling: all pages</a></p>|
+      s/(<code class="Li">|[ (])(--?[a-z][a-z0-9-]*)/\1<span class="option">\2<\/span>/g' \
+      >"$to/$name.html"
 done
+cp README.md "$to/README.txt"
 
 {
   cat <<'END'
@@ -49,18 +81,20 @@ done
 <head>
 <meta charset="utf-8"/>
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
-<title>rolling: the manual pages</title>
+<title>rolling: the law of a rolling body, with uncertainties</title>
 <link rel="stylesheet" href="pages.css" type="text/css"/>
 </head>
 <body>
-<h1>rolling: the manual pages</h1>
+<h1>rolling: the CSV of a rolling body in, its law of rolling resistance out</h1>
+<p>Begin with the <a href="README.txt">README</a> and the tutorial.</p>
 <table>
 END
+  [ ! -e "$to/../report.html" ] ||
+    echo '<tr><td><a href="../report.html">report</a></td><td>Table 1 and the figures</td></tr>'
   for page in "${pages[@]}"; do
     name=${page#man/}
-    about=$(sed -n 's/^\.Nd //p' "$page" | sed 's/\\-/-/g; s/&/\&amp;/g; s/</\&lt;/g')
     printf '<tr><td><a href="%s.html">%s(%s)</a></td><td>%s</td></tr>\n' \
-      "$name" "${name%.*}" "${name##*.}" "$about"
+      "$name" "${name%.*}" "${name##*.}" "$(about "$page")"
   done
   printf '</table>\n</body>\n</html>\n'
 } >"$to/index.html"

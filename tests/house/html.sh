@@ -19,9 +19,15 @@ for page in "$OLDPWD"/man/*.[157]; do
   name=$(basename "$page")
   [ -s "$name.html" ] || complain "no page $name"
   grep -qF "href=\"$name.html\"" index.html || complain "$name is not in the index"
-  about=$(sed -n 's/^\.Nd //p' "$page" | sed 's/\\-/-/g')
+  about=$(sed -n 's/^\.Nd //p' "$page" | sed 's/\\-/-/g; s/\\(ha/^/g')
   [ "$(grep -cF ">$about</td>" index.html)" = 1 ] || complain "$name: '$about' is not in the index"
+  [ "$(grep -cF "<title>${name%.*}(${name##*.}): $about</title>" "$name.html")" = 1 ] ||
+    complain "$name: '$about' is not its title"
 done
+! grep -n '\\' index.html || complain 'the index has escapes of roff'
+# Options stand in an element that no line breaks.
+! grep -nE '<code class="Li">[a-z ]*--[a-z]' ./*.[157].html || complain 'an option that a line may break'
+grep -qF '<span class="option">--coast</span>' smooth.1.html || complain 'smooth(1): no option is whole'
 for page in ./*.html; do
   [ "$(grep -c '<html lang="en">' "$page")" = 1 ] || complain "$page does not say its language once"
   [ "$(grep -c 'name="viewport"' "$page")" = 1 ] || complain "$page has not one viewport"
