@@ -136,7 +136,7 @@ figures/report.html: samples/report.sh samples/table1.sh $(figure:%=figures/%.sv
 	PATH="$$PWD/bin:$$PATH" $< figures \
 	  $(if $(wildcard build/work-precision/CR.svg),build/work-precision) >$@.new && \
 	  mv $@.new $@
-	$(if $(shell command -v mandoc),cmd/install/html.sh figures/man)
+	$(if $(shell command -v mandoc),cmd/install/html.sh figures/man && touch $@)
 
 # The manual pages as one site of HTML.
 html: figures/man/index.html
