@@ -12,4 +12,4 @@ takes='slope seconds' seconds=0.84 needs='-K 0.5 -R 0.04 -m 1.375'
 prepare CR
 balance
 title='Energy of a roll against time: translation, rotation, dissipated, and their sum'
-draw 520 500 "start = $start; parts = $parts" <<<"load 'energies.gp'"
+draw 520 500 "start = $start; parts = $parts" <<<"set bmargin at screen 0.23; load 'energies.gp'"

@@ -28,7 +28,7 @@ cp law memory  # for gnuplot, which looks for it where it is not drawn, too
 rest=$(columns moving t x | awk -v end="$end" '$1 > end - 1 { sum += $2; n++ } END { print sum / n }'
   tail -n 1 law | cut -f 2
   tail -n 1 memory | cut -f 2)
-{ printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g' | fold -s -w 70 >note
+{ printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g; s/, goes/,\ngoes/; s/; as/;\nas/' >note
 title='Fig. 1, the stop: velocity and position near the stop, with the roll backwards'
 draw 520 740 "remembers = ${#memory}; of_memory = '$of_memory'; stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
 set multiplot layout 2,1 margins 0.15,0.98,0.16,0.98 spacing 0.1
@@ -46,7 +46,6 @@ plot 'raw' using (after($1)):(1e3*sign*$3) with points ls 1 ps 0.6 title name.':
 set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
 set label 1 system('cat note') at screen 0.02, screen 0.075 left font ',12'
 plot 'raw' using (after($1)):(mm($2, 1)) with points ls 1 ps 0.6 title name.': the positions' noenhanced, \
-     for [i=1:(remembers > 0)] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 \
-       title 'with a memory of '.of_memory, \
-     'law' using (after($1)):(mm($2, 2)) with lines ls 12 title 'fitted law alone'
+     for [i=1:(remembers > 0)] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 notitle, \
+     'law' using (after($1)):(mm($2, 2)) with lines ls 12 notitle
 PLOT

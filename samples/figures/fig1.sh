@@ -24,10 +24,10 @@ title='Fig. 1: the velocity against time, measured and by the fitted law'
 [ "$own" = 0 ] || key=$((((count < 16 ? count : 16) + 3) / 2))
 draw 520 $((own ? 440 + 20 * key : 680)) <<'PLOT'
 set xzeroaxis lt -1 lw 0.5
-set ylabel 'velocity v / (m/s)'; set xlabel 'time t / s'
+set ylabel 'velocity v / (m/s)' offset -0.5, 0; set xlabel 'time t / s'
 panels = own ? 1 : 2
 rows = (named + 3)/2; H = 440.0 + 20*rows
-set multiplot layout panels,1 margins 0.14,0.97,own ? (62 + 20*rows)/H : 0.09,0.98 spacing 0.1
+set multiplot layout panels,1 margins 0.16,0.97,own ? (62 + 20*rows)/H : 0.09,0.98 spacing 0.1
 if (own) { eval 'set key outside center bottom '.outside }
 if (!own) { set xrange [0.8:9.2]; set yrange [-0.05:0.55] }
 of(kind, i) = sprintf('%s%d', kind, i)
