@@ -186,4 +186,6 @@ plot 'band' using 1:3:4 with filledcurves lc rgb '#9ecae1' title '95 % of the la
   'points' using 1:4 with points pt 7 ps 0.6 lc rgb '#d95f0e' title 'pairs of runs'
 PLOT
 [ ! -e "$svg" ] || [ -f "$svg" ] || wrong "$svg is no file"
-cp "$scratch/drawn" "$svg.new" && mv "$svg.new" "$svg"
+replace=1
+mkdir "$scratch/picture" && mv "$scratch/drawn" "$scratch/picture/${svg##*/}"
+place "$(dirname -- "$svg")" "$scratch/picture"/*

@@ -54,13 +54,27 @@ window() {
 random='function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
 function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
 BEGIN { if (!seed) seed = 1 }'
-# A folder of this run, $scratch, which is removed when it ends. Nothing else is.
+# place FOLDER FILE...: they come to stand there, all of them or none; only with $replace in the place of
+# others.
+place() {
+  to=$1
+  shift
+  for file; do
+    [ ! -e "$to/${file##*/}" ] || [ "${replace-}" ] || wrong "$to/${file##*/} exists: choose another folder"
+  done
+  trap '' INT TERM HUP
+  placed=$(mktemp -d "$to/.new.XXXXXX") || wrong "$to cannot be written"
+  trap 'exit 130' INT TERM HUP
+  cp -- "$@" "$placed" || wrong "$to cannot be written"
+  mv -f -- "$placed"/* "$to"
+}
+# A folder of this run, $scratch, which is removed when it ends, as is what was not placed. Nothing else
+# is.
 make_scratch() {
-  ended=''
-  trap 'ended=1' INT TERM  # not before the folder has its name
+  trap '' INT TERM HUP  # not before the folder has its name
   scratch=$(mktemp -d) && [ -d "$scratch" ] || wrong 'mktemp makes no folder: see TMPDIR'
-  trap 'rm -rf "$scratch"' EXIT
-  trap 'exit 130' INT TERM
+  placed=''
+  trap 'rm -rf "$scratch" ${placed:+"$placed"}' EXIT
+  trap 'exit 130' INT TERM HUP
   case $scratch in /*) ;; *) scratch=$PWD/$scratch ;; esac
-  [ -z "$ended" ] || exit 130
 }

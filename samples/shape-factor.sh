@@ -168,7 +168,9 @@ case $#:${1-} in
     measured $made
     [ -d "$2" ] || wrong "$2 is no folder"
     is_count "$3" || wrong "SEED is a whole number, not $3"
-    make_runs "$2" "$3"
+    make_scratch
+    make_runs "$scratch" "$3"
+    place "$2" "$scratch"/*
     ;;
   2:*)
     [ "$m" ] && [ "$R" ] && [ "$r" ] && [ "$w" ] || wrong "say what was measured: $made"

@@ -14,10 +14,11 @@ for program in dpkg-shlibdeps dpkg-deb; do
 done
 
 prefix=${PROGRAM_PREFIX-}
-folder=
-trap '[ -z "$folder" ] || rm -rf "$folder"' EXIT
 mkdir -p build
+trap '' INT TERM HUP  # not before the folder has its name
 folder=$(mktemp -d build/deb.XXXXXX)
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 130' INT TERM HUP
 tree=$folder/debian/rolling
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 architecture=$(dpkg --print-architecture)
@@ -85,4 +86,7 @@ Description: from motion-sensor data to the physics of a rolling body
 END
 (cd "$tree" && find usr -type f -print0 | sort -z | xargs -0 md5sum >DEBIAN/md5sums)
 find "$tree" -exec touch -h -d "@$moment" {} +
-SOURCE_DATE_EPOCH=$moment dpkg-deb --root-owner-group --build "$tree" "build/rolling_${version}_$architecture.deb"
+package=rolling_${version}_$architecture.deb
+SOURCE_DATE_EPOCH=$moment dpkg-deb --root-owner-group --build "$tree" "$folder/$package" >"$folder/said"
+mv "$folder/$package" build
+echo "build/$package: $(wc -c <"build/$package") bytes"

@@ -9,8 +9,15 @@ unset CDPATH
 cd "$(dirname "$0")/../.."
 command -v mandoc >/dev/null ||
   { echo "html: mandoc is not installed; make setup html installs it" >&2; exit 2; }
+[ $# = 1 ] || { echo 'html.sh FOLDER' >&2; exit 2; }
+site='rolling: the law of a rolling body, with uncertainties'
+[ ! -e "$1/index.html" ] || grep -qF "$site" "$1/index.html" ||
+  { echo "html: $1/index.html is not of this site: choose another folder" >&2; exit 2; }
 mkdir -p -- "$1"
-to=$(cd -- "$1" && pwd)
+trap '' INT TERM HUP  # not before the folder has its name
+to=$(cd -- "$1" && mktemp -d "$PWD/.new.XXXXXX")
+trap 'rm -rf "$to"' EXIT
+trap 'exit 130' INT TERM HUP
 # In the order in which one reads them.
 pages=(man/rolling.7 man/smooth.1 man/differentiate.1 man/shift-from-accel.1 man/fitpower.1
   man/simulate.1 man/energy-ledger.1 man/rolling-recipes.7 man/rolling-columns.5 man/rolling-fits.7
@@ -75,21 +82,21 @@ done
 cp README.md "$to/README.txt"
 
 {
-  cat <<'END'
+  cat <<END
 <!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8"/>
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
-<title>rolling: the law of a rolling body, with uncertainties</title>
+<title>$site</title>
 <link rel="stylesheet" href="pages.css" type="text/css"/>
 </head>
 <body>
-<h1>rolling: the CSV of a rolling body in, its law of rolling resistance out</h1>
+<h1>$site</h1>
 <p>Begin with the <a href="README.txt">README</a> and the tutorial.</p>
 <table>
 END
-  [ ! -e "$to/../report.html" ] ||
+  [ ! -e "$1/../report.html" ] ||
     echo '<tr><td><a href="../report.html">report</a></td><td>Table 1 and the figures</td></tr>'
   for page in "${pages[@]}"; do
     name=${page#man/}
@@ -98,3 +105,4 @@ END
   done
   printf '</table>\n</body>\n</html>\n'
 } >"$to/index.html"
+mv -f -- "$to"/* "$1"

@@ -31,17 +31,28 @@ case ${DESTDIR-} in '' | /*) root=${DESTDIR-} ;; *) root=$PWD/$DESTDIR ;; esac
 docdir=${docdir%/}
 lists=$root$docdir/installed-files
 list=$lists${prefix:+-}$prefix
+trap '' INT TERM HUP  # not before the folder has its name
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-trap 'exit 130' INT TERM
+new=$scratch/new
+trap 'rm -rf "$scratch" "$new"' EXIT
+trap 'exit 130' INT TERM HUP
 : >"$scratch/files"
 
-# stage MODE PATH: standard input is to become this file.
+# stage PATH: standard input is to become this file.
 stage() {
-  mkdir -p "$scratch/stage${2%/*}"
-  cat >"$scratch/stage$2"
-  chmod "$1" "$scratch/stage$2"
-  printf '%s\n' "$2" >>"$scratch/files"
+  [ -d "$scratch/stage${1%/*}" ] || mkdir -p "$scratch/stage${1%/*}"
+  cat >"$scratch/stage$1"
+  printf '%s\n' "$1" >>"$scratch/files"
+}
+# put FOLDER FILE...: they come to stand there, all or none, also where one runs or is a link.
+put() {
+  to=$1
+  shift
+  mkdir -p "$to"
+  new=$(mktemp -d "$to/.new.XXXXXX")
+  cp -p "$@" "$new"
+  mv -f "$new"/* "$to"
+  rmdir "$new"
 }
 # What belongs to the source: runs and results of somebody's own stay where they are. A name that
 # no pattern here fits is told by tests/house/install.sh.
@@ -63,52 +74,59 @@ stage_all() {
     tools="$tools ${tool%.cpp}"
   done
   for tool in $tools; do
-    stage 755 "$bindir/$prefix$tool" <"$TOOLS/$tool"
+    stage "$bindir/$prefix$tool" <"$TOOLS/$tool"
     ${STRIP:-strip} "$scratch/stage$bindir/$prefix$tool"
     # shellcheck disable=SC2086  # tools are words
-    cmd/install/rename-page.sh "$prefix" $tools <"man/$tool.1" |
-      stage 644 "$mandir/man1/$prefix$tool.1"
+    cmd/install/rename-page.sh "$prefix" $tools <"man/$tool.1" | stage "$mandir/man1/$prefix$tool.1"
+    "bin/$tool" --help >"$scratch/help"
     for shell in bash:bash-completion/completions/ zsh:zsh/site-functions/_ \
       fish:fish/vendor_completions.d/; do
-      "bin/$tool" --help |
-        awk -v shell="${shell%%:*}" -v name="$prefix$tool" -f cmd/install/completion.awk |
-        stage 644 "$datadir/${shell#*:}$prefix$tool$([ "${shell%%:*}" != fish ] || echo .fish)"
+      awk -v shell="${shell%%:*}" -v name="$prefix$tool" -f cmd/install/completion.awk "$scratch/help" |
+        stage "$datadir/${shell#*:}$prefix$tool$([ "${shell%%:*}" != fish ] || echo .fish)"
     done
   done
   for page in man/*.[57]; do
     # shellcheck disable=SC2086
-    cmd/install/rename-page.sh "$prefix" $tools <"$page" |
-      stage 644 "$mandir/man${page##*.}/${page#man/}"
+    cmd/install/rename-page.sh "$prefix" $tools <"$page" | stage "$mandir/man${page##*.}/${page#man/}"
   done
-  awk -f cmd/install/citation.awk samples/rolling.bib | stage 644 "$docdir/CITATION.cff"
+  awk -f cmd/install/citation.awk samples/rolling.bib | stage "$docdir/CITATION.cff"
   samples >"$scratch/samples"
-  while IFS= read -r sample; do
-    mode=644
-    [ ! -x "$sample" ] || mode=755
-    stage $mode "$docdir/$sample" <"$sample"
-  done <"$scratch/samples"
+  tar -cf - -T "$scratch/samples" | tar -xf - -C "$scratch/stage$docdir"
+  while IFS= read -r sample; do printf '%s\n' "$docdir/$sample"; done <"$scratch/samples" >>"$scratch/files"
+  chmod +x "$scratch/stage$bindir"/*
+  chmod -R u=rwX,go=rX "$scratch/stage"
 }
 
-described() { printf '%s %s\n' "$(cksum <"$1")" "$2"; }  # FILE PATH: its line in a list
 exists() { [ -e "$1" ] || [ -L "$1" ]; }
-as_installed() {  # PATH: by this prefix or by another one
-  [ ! -L "$root$1" ] && [ -f "$root$1" ] && described "$root$1" "$1" >"$scratch/line" &&
-    cat "$lists"* 2>/dev/null | grep -qxF -f "$scratch/line"
+zeros() { tr '\n' '\0'; }
+# described FOLDER <PATHS: the line in a list of each that is a plain file below FOLDER.
+described() {
+  [ ! -d "$1/" ] || (cd "$1/" && while IFS= read -r path; do
+    [ ! -f ".$path" ] || [ -L ".$path" ] || printf '.%s\n' "$path"
+  done | zeros | xargs -0 cksum | sed -n 's|^\([0-9]* [0-9]*\) \./|\1 /|p')
+}
+# without FILE, only FILE: the lines of standard input that are not in it, that are.
+without() { grep -vxF -f "$1" || [ $? = 1 ]; }
+only() { grep -xF -f "$1" || [ $? = 1 ]; }
+paths() { cut -d ' ' -f 3-; }
+# as_installed <PATHS: those that are as they were installed, by this prefix or by another one, and those
+# that are as the file $1 says.
+as_installed() {
+  cat "$lists"* "$1" >"$scratch/known" 2>/dev/null || true
+  described "$root" | only "$scratch/known" | paths
 }
 
 # Removes what the list names and the file $1 does not.
 remove_listed() {
   [ -f "$list" ] || return 0
-  cut -d ' ' -f 3- "$list" >"$scratch/listed"
-  for other in "$lists"*; do [ "$other" = "$list" ] || cut -d ' ' -f 3- "$other"; done \
-    >"$scratch/of-others"
-  grep '/$' "$scratch/listed" | sort -r >"$scratch/old-folders" || true
-  grep -v '/$' "$scratch/listed" | while IFS= read -r path; do
-    ! printf '%s\n' "$path" | grep -qxF -f - "$1" "$scratch/of-others" || continue
-    exists "$root$path" || continue
-    if as_installed "$path"; then rm -f "$root$path"
-    else printf 'install: %s is not as it was installed: it stays\n' "$root$path" >&2
-    fi
+  for other in "$lists"*; do [ "$other" = "$list" ] || paths <"$other"; done | cat - "$1" >"$scratch/kept"
+  paths <"$list" | without "$scratch/kept" >"$scratch/listed"
+  sed -n '/\/$/p' "$scratch/listed" | sort -r >"$scratch/old-folders"
+  sed '/\/$/d' "$scratch/listed" >"$scratch/old"
+  as_installed /dev/null <"$scratch/old" >"$scratch/unchanged"
+  (cd "$root/" && sed 's/^/./' "$scratch/unchanged" | zeros | xargs -0 rm -f)
+  without "$scratch/unchanged" <"$scratch/old" | while IFS= read -r path; do
+    ! exists "$root$path" || printf 'install: %s is not as it was installed: it stays\n' "$root$path" >&2
   done
 }
 # Removes the folders of the list, the innermost first, unless they hold something.
@@ -134,11 +152,11 @@ folders() {
 
 install_all() {
   stage_all
-  while IFS= read -r path; do
-    exists "$root$path" || continue
-    cmp -s "$root$path" "$scratch/stage$path" && [ ! -L "$root$path" ] || as_installed "$path" ||
-      printf '  %s\n' "$root$path"
-  done <"$scratch/files" >"$scratch/strangers"
+  described "$scratch/stage" <"$scratch/files" >"$scratch/list"
+  as_installed "$scratch/list" <"$scratch/files" >"$scratch/ours"
+  without "$scratch/ours" <"$scratch/files" | while IFS= read -r path; do
+    ! exists "$root$path" || printf '  %s\n' "$root$path"
+  done >"$scratch/strangers"
   if [ -s "$scratch/strangers" ]; then
     {
       echo 'install: these files exist, and are none that this has installed:'
@@ -150,17 +168,16 @@ install_all() {
   fi
   remove_listed "$scratch/files"
   remove_folders
-  folders "$scratch/files" >"$scratch/folders"
+  folders "$scratch/files" >>"$scratch/list"
   # The list comes first: where a copy fails, what is there can be removed.
-  mkdir -p "$root$docdir"
-  while IFS= read -r path; do described "$scratch/stage$path" "$path"; done <"$scratch/files" |
-    cat - "$scratch/folders" >"$scratch/list"
-  cp "$scratch/list" "$list"
-  while IFS= read -r path; do
-    mkdir -p "$root${path%/*}"
-    rm -f "$root$path"  # it may run, or be a link
-    cp -p "$scratch/stage$path" "$root$path"
-  done <"$scratch/files"
+  mv "$scratch/list" "$scratch/${list##*/}"
+  put "$root$docdir" "$scratch/${list##*/}"
+  sed 's|/[^/]*$||' "$scratch/files" | sort -u >"$scratch/folders"
+  while IFS= read -r folder; do
+    set --
+    for file in "$scratch/stage$folder"/*; do [ ! -f "$file" ] || set -- "$@" "$file"; done
+    put "$root$folder" "$@"
+  done <"$scratch/folders"
   printf 'installed: %s and what is listed in %s\n' "$root$bindir" "$list"
 }
 

@@ -8,7 +8,13 @@ set -eu
 export LC_ALL=C
 unset CDPATH
 cd "$(dirname "$0")/../.."
-linked=$1 folder=$2
+[ $# = 2 ] && [ -d "$2" ] || { echo 'parts.sh static|shared FOLDER' >&2; exit 2; }
+linked=$1
+trap '' INT TERM HUP  # not before the folder has its name
+folder=$(mktemp -d "$2/.new.XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 130' INT TERM HUP
+to=$2
 rolling=$(bin/smooth --version | cut -d ' ' -f 3)
 # shellcheck disable=SC2046  # words
 set -- $(${CXX:-g++} -E -P -x c++ - <<'END' | tail -n 1 | tr -d '"'
@@ -72,3 +78,4 @@ END
     cat /usr/share/common-licenses/LGPL-2.1 || true
   fi
 } >"$folder/NOTICES"
+mv -f "$folder"/* "$to"

@@ -8,17 +8,18 @@ unset CDPATH
 cd "$(dirname "$0")/../.."
 case ${1-} in '' | *[!A-Za-z0-9_]*) echo "static: '${1-}' is no architecture" >&2 && exit 2 ;; esac
 name=rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$1
-folder=
-trap '[ -z "$folder" ] || rm -rf "$folder"' EXIT
 mkdir -p build
+trap '' INT TERM HUP  # not before the folder has its name
 folder=$(mktemp -d build/archive.XXXXXX)
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 130' INT TERM HUP
 bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \
   DESTDIR=$folder/$name cmd/install/install.sh install >/dev/null
 rm "$folder/$name/installed-files"
 cp README.md LICENSE "$folder/$name"
 cmd/install/parts.sh static "$folder/$name"
 chmod -R u=rwX,go=rX "$folder"
-tar --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
-  --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf - "$name" | xz -T1 >"$folder/archive"
+tar -I 'xz -T1' --sort=name --format=ustar --owner=0 --group=0 --numeric-owner \
+  --mtime="@$(cmd/install/date.sh)" -C "$folder" -cf "$folder/archive" "$name"
 mv "$folder/archive" "build/$name.tar.xz"
 echo "build/$name.tar.xz: $(wc -c <"build/$name.tar.xz") bytes"

@@ -128,13 +128,10 @@ if $check; then
   [ $failed = 1 ] || echo "passed: $runs runs" >&2
 fi
 
-# Each file of the results beside its place, and then into it by its name.
+replace=1
 mkdir -p "$results"
-: >"$results/made-by-lab"
-for file in "$new"/*; do
-  name=${file##*/}
-  cp "$file" "$results/.$name.new" && mv "$results/.$name.new" "$results/$name"
-done
+: >"$new/made-by-lab"
+place "$results" "$new"/*
 for name in slope.txt joint.txt energy.txt fig4.svg; do
   [ -e "$new/$name" ] || rm -f "$results/$name"
 done
