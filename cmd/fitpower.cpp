@@ -293,7 +293,7 @@ int main(int argc, char** argv) {
       if (!one.result) continue;
       left_out += one.result->left_out;
       if (compares && !options.robust) one.laws = compare_laws(route, one.runs, options);
-      remark(tool, one, options);
+      remark(tool, one, options, fits.size());
       if (!with_report) continue;
       if (each) tool.say(fmt::format("run {}, the report:", one.runs.front().name));
       report(tool, one, *options.law);

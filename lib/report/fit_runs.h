@@ -75,8 +75,9 @@ std::string disagreement(const Agreement&, const std::vector<Run>&);
 /// error is not that of a normal distribution. A check fails by a shift beyond the radius, runs
 /// that disagree, a reading that is off, such a b and such an a; by standard errors that do not
 /// exist (unless a and b are both fixed), another law that is better by 10 in AICc, the beginning
-/// of a run that is disturbed, and residuals that are not white.
-void remark(Tool&, const FitOfRuns&, const FitOptions&);
+/// of a run that is disturbed, and residuals that are not white: these three at levels for one of
+/// so many fits.
+void remark(Tool&, const FitOfRuns&, const FitOptions&, std::size_t fits);
 
 /// Reports how the uncertainties were made, and of which parts; the coefficients of all laws, and
 /// whether another is better than this.

@@ -85,8 +85,9 @@ std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p =
 /// The remarks on one fit. Causes come first, then what a cause would bring with it.
 class Remarks {
  public:
-  Remarks(Tool& tool, const FitOfRuns& fit, const FitOptions& options)
-      : tool_(tool), fit_(fit), options_(options), r_(*fit.result), noisy_(!exact(fit)) {}
+  Remarks(Tool& tool, const FitOfRuns& fit, const FitOptions& options, std::size_t fits)
+      : tool_(tool), fit_(fit), options_(options), r_(*fit.result),
+        fits_(static_cast<double>(fits)), noisy_(!exact(fit)) {}
 
   void make() {
     geometry();
@@ -107,7 +108,7 @@ class Remarks {
                  "two rolls alone give the slope: what their laws differ by counts as slope, and "
                  "its standard uncertainty does not hold that; add rolls in both directions");
     if (!tool_.checks) return;
-    if (other_law)
+    if (other_law && fit_.laws->against >= levels::another_law + 2 * std::log(fits_))
       object(run_, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
                                fit_.laws->other->formula, law.formula, fit_.laws->against));
     check();
@@ -263,18 +264,20 @@ class Remarks {
         (r_.sigma_a == 0 && r_.sigma_b == 0 && !(options_.a && options_.b)))
       object(run_, "nothing is left for standard uncertainties: fit more readings");
     if (!noisy_) return;
-    if (const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_))
+    const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_);
+    if (beginning && beginning->p <= levels::beginning / fits_)
       object(fit_.runs[beginning->run].name,
              fmt::format("the first {} rows do not go on as the others ({}), as if a hand were "
                          "still on: cut off {:.2g} s",
                          beginning->rows, p_of(beginning->p), beginning->time));
-    if (r_.whiteness <= levels::not_white) tell_not_white();
+    if (r_.whiteness <= levels::not_white / fits_) tell_not_white();
   }
 
   Tool& tool_;
   const FitOfRuns& fit_;
   const FitOptions& options_;
   const FitResult& r_;
+  double fits_;
   std::string run_ = fit_.runs.size() == 1 ? fit_.runs[0].name : "";  ///< none of several
   bool noisy_;
   bool spoilt_ = false;
@@ -296,8 +299,8 @@ std::string disagreement(const Agreement& found, const std::vector<Run>& runs) {
   return line + "; the row is their mean, with their scatter in its uncertainties";
 }
 
-void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options) {
-  Remarks(tool, fit, options).make();
+void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options, std::size_t fits) {
+  Remarks(tool, fit, options, fits).make();
 }
 
 void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
