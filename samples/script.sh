@@ -20,6 +20,11 @@ given() { sed -n "s/^$1 *= *//p" "$2" | tr -d '" '; }
 value() { given "$1" "$2" | sed 's/+-.*//'; }
 # Of a list, K or R, the value of run number $2.
 of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
+# named FILE NAME: the runs in FILE; one without a name gets that of the file NAME.
+named() {
+  grep -q '^## run ' "$1" || printf '## run %s\n' "$(printf %s "${2##*/}" | tr '[:cntrl:]' '?')"
+  cat "$1"
+}
 # columns FILE NAME...: these columns, with nothing else.
 columns() {
   file=$1

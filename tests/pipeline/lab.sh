@@ -125,14 +125,14 @@ law | cmp - named/law || complain "use of two: $(cat said)"
 mkdir speeds
 for run in CF CR; do cut -d, -f1,3 ../$run.csv >speeds/$run.csv; done
 lab --check -K 0.5 -R 0.04 -c v speeds && complain 'check: two mats agree'
-grep -q 'lab.sh: the runs do not have one law' said || complain "check: two mats: $(cat said)"
+grep -q 'fitpower: the runs disagree' said || complain "check: two mats: $(cat said)"
 # Another law, D = 0.5 mm + 4 mm (v/(m/s))^2: no a v^b describes its roll.
 mkdir other
 awk 'BEGIN { print "# v D"; for (i = 0; i <= 60; i++) print i / 100, 5e-4 + 4e-3 * (i / 100)^2 }' |
   simulate --law - -K 0.5 -R 0.04 --v0 0.5 --sensor pasco --seed 3 >other/run.csv
 cp -R other ./-x
 lab --check $of_body -- -x && complain 'check: D = 0.5 mm + 4 mm v^2 is a v^b'
-grep -q 'lab.sh: the check fails: run run.csv' said || complain "check: D = 0.5 mm + 4 mm v^2: $(cat said)"
+grep -q 'fitpower: run run.csv: D = d0 + d2 v^2 is better' said || complain "check: D = 0.5 mm + 4 mm v^2: $(cat said)"
 [ "$(runs)" = run.csv ] || complain "the name of one run: $(runs)"
 # Whoever has looked at it may accept it.
 lab --check --accept run.csv $of_body other || complain "--accept: $(cat said)"
