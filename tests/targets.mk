@@ -228,16 +228,22 @@ work-precision: build/bench/ulp build/bench/work_precision
 work-precision-signal: build/bench/signal
 	@mkdir -p build/work-precision
 	tests/bench/signal.sh build/work-precision $(call short,2)
-	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, signal*.svg and signal*.png'
+	$(call short,,[ ! -e build/work-precision/filters.svg ] || \
+	  cp build/work-precision/filters.svg samples/filters.svg)
+	@echo 'results: build/work-precision/signal.tsv and, with gnuplot, its pictures'
 
 # The digits of other programs on the certified fits, beside ours: the table at the end of that README.
+# And b of the same runs by theirs and by ours: scatter, coverage and time.
 peer_python = $(firstword $(foreach p,python3 /usr/bin/python3,\
                 $(shell $p -c 'import lmfit' 2>/dev/null && echo $p)) python3)
 peers: all
 	@PATH="$$PWD/bin:$$PATH" $(peer_python) tests/reference/peers.py tests/reference/fits \
 	  $(call short,Rubber1 Turn1) >build/peers.txt
 	@cat build/peers.txt
+	@PATH="$$PWD/bin:$$PATH" tests/bench/beside.sh $(peer_python) build $(call short,3)
+	@cat build/beside.tsv
 ifeq ($(SHORT),)
+	@[ ! -e build/fit-routes.svg ] || cp build/fit-routes.svg samples/
 	@{ sed '/^    record /,$$d' tests/reference/README.md; sed 's/^/    /; s/ *$$//' build/peers.txt; } \
 	  >build/README && cp build/README tests/reference/README.md
 endif

@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of README.md: the exponent b of the same simulated runs, by rolling and by what one would
-use in its place.
+"""The table of README.md and the figure samples/fit-routes.svg: the exponent b of the same simulated
+runs, by the routes of fitpower and by what one would use in its place.
 
     PATH=$PWD/bin:$PATH python3 tests/bench/beside.py [RUNS]        (scipy, lmfit)
 
 Each run is one of `simulate --sensor pasco`. rolling takes it as it is. The others get the free roll,
 cut at the times that are known here, and its positions. Printed are, for CR and CF, the standard
-deviation of b, its bias, the share of nominal 95 % intervals that hold the true b, and the mean of the
-standard uncertainties as a multiple of that standard deviation. The rows `of v` fit the velocities that
-the program of the sensor exports.
+deviation of b, its bias, the share of nominal 95 % intervals that hold the true b, the mean of the
+standard uncertainties as a multiple of that standard deviation, and the processor time of a fit, the
+starts of the programs of rolling included. The rows `of v` fit the velocities that the program of
+the sensor exports.
 """
 import io
+import resource
 import subprocess
 import sys
 
@@ -22,7 +24,8 @@ from scipy import odr
 RUNS = int(sys.argv[1]) if len(sys.argv) > 1 else 200
 PUSHED, G, K, R = 1.5, 9.81, 0.5, 0.04
 C = G / ((K + 1) * R)
-ROUTE = {"x": "position", "v": "velocity"}
+BODY = ["-K", str(K), "-R", str(R)]
+D_OF_X = [["differentiate", "-c", "x"], ["smooth", "-w", "11"], ["differentiate"], ["shift-from-accel", "-q", *BODY]]
 
 
 def scene(name):
@@ -82,11 +85,15 @@ def by_lmfit(t, y, start, of_v=False):
     return fit.params["b"].value, fit.params["b"].stderr or np.nan
 
 
-def by_rolling(text, column):
-    roll = subprocess.run(["smooth", "-q", "--coast", "-c", column], input=text, capture_output=True, text=True, check=True)
-    row = subprocess.run(["fitpower", "-q", "--route", ROUTE[column], "-K", str(K), "-R", str(R)], input=roll.stdout,
-                         capture_output=True, text=True, check=True)
-    return [float(cell) for cell in row.stdout.splitlines()[-1].split("\t")[2:4]]
+def by_rolling(text, column, route, between=()):
+    for command in (["smooth", "-q", "--coast", "-c", column], *between, ["fitpower", "-q", "--route", route, *BODY]):
+        text = subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+    return [float(cell) for cell in text.splitlines()[-1].split("\t")[2:4]]
+
+
+def seconds():
+    return sum(part for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+               for part in resource.getrusage(who)[:2])
 
 
 found = {}
@@ -95,18 +102,24 @@ for name in ("CR", "CF"):
     for seed in range(1, RUNS + 1):
         text = run(name, seed)
         t, x = readings(text, *law, column=1, margin=0)
+        of_v = readings(text, *law, column=2, margin=0.08)
         fits = {
-            "log-log by hand": by_hand(t, x),
-            "scipy.odr": by_odr(t, x, law),
-            "lmfit": by_lmfit(t, x, law),
-            "rolling": by_rolling(text, "x"),
-            "lmfit of v": by_lmfit(*readings(text, *law, column=2, margin=0.08), law, of_v=True),
-            "rolling of v": by_rolling(text, "v"),
+            "log-log by hand": lambda: by_hand(t, x),
+            "scipy.odr": lambda: by_odr(t, x, law),
+            "lmfit": lambda: by_lmfit(t, x, law),
+            "lmfit of v": lambda: by_lmfit(*of_v, law, of_v=True),
+            "rolling": lambda: by_rolling(text, "x", "position"),
+            "rolling of v": lambda: by_rolling(text, "v", "velocity"),
+            "rolling, shift": lambda: by_rolling(text, "x", "shift", D_OF_X),
+            "rolling, loglog": lambda: by_rolling(text, "x", "loglog", D_OF_X),
         }
         for what, fit in fits.items():
-            found.setdefault((name, what), []).append(fit)
+            begin = seconds()
+            b, sigma = fit()
+            found.setdefault((name, what), []).append((b, sigma, seconds() - begin))
+print("# scene", "by", "sd_b", "bias_b", "coverage", "sigma_over_sd", "ms", sep="\t")
 for (name, what), fits in found.items():
-    b, sigma = np.array(fits).T
+    b, sigma, time = np.array(fits).T
     off = b - scene(name)[1]
-    print(f"{name} {what:16} sd of b {np.std(b):.4f}  bias {np.mean(off):+.4f}  coverage "
-          f"{np.mean(np.abs(off) < 1.96 * sigma):.3f}  sigma {np.mean(sigma) / np.std(b):.2f}")
+    print(name, what, f"{np.std(b):.4f}", f"{np.mean(off):+.4f}", f"{np.mean(np.abs(off) < 1.96 * sigma):.3f}",
+          f"{np.mean(sigma) / np.std(b):.2f}", f"{1e3 * np.median(time):.1f}", sep="\t")

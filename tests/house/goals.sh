@@ -43,6 +43,7 @@ for goal in $goals; do
         "$python" -c 'import lmfit' 2>/dev/null || continue
         run peers
         has build/peers.txt '^Rubber1 +1[1-6][.0-9]* / 1[1-6][.0-9]* +[4-9]'
+        has build/beside.tsv '^CF.rolling.0[.]00'
         break
       done ;;
     extremes)
