@@ -169,7 +169,7 @@ std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& opt
   return line_of_fit(name_of(fits.front().route), options, of_runs);
 }
 
-/// Writes a row for each fit, of which `fitted` is one. A run that could not be fitted has blank
+/// Writes a row for each fit; `fitted` is one of them. A run that could not be fitted has blank
 /// cells, and so have errors that do not exist.
 void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fitted,
            bool with_run) {

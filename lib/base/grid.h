@@ -13,7 +13,7 @@ namespace rolling {
 /// rounding error of the program that computed them, and not by a digit that it wrote.
 inline constexpr double program_rounding = 1e-9;
 
-/// No grid is told that is finer than this share of the largest reading.
+/// A grid that is finer than this share of the largest reading counts as none.
 inline constexpr double finest_grid = 100 * program_rounding;
 
 /// The largest step of which the differences of all readings are whole multiples: the last place

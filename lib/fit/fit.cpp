@@ -85,9 +85,9 @@ bool both_ways(const Fitted& found) {
   return false;
 }
 
-/// Throws Error if the data do not determine the law; or the slope of the mat, which slows the body
-/// down as the law does and is told from it by runs in both directions, or by a law a v^b that is
-/// well known, but never from a constant d0.
+/// Throws Error if the data do not determine the law or the slope of the mat. A slope slows the
+/// body down as the law does: runs in both directions separate them, or a law a v^b that is well
+/// known, but never a constant d0.
 void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found) {
   const auto not_visited = [&](std::size_t number) {
     const auto at = std::ranges::find(result.not_visited, number, &Interval::number);

@@ -34,8 +34,8 @@ inline Uncertainty uncertainty_of(const Fitted& fit) {
 }
 
 /// The mean variance that the rounding of the readings leaves them; 0 behind filters. Gates fix x
-/// or v, and t is measured: readings on a grid that are far closer to the roll than rounding would
-/// leave them, of which none repeats and whose times are not those of a clock, are not rounded.
+/// or v, and t is measured: readings are not rounded if they are on a grid, far closer to the roll
+/// than rounding would leave them, none repeats, and their times are not those of a clock.
 double variance_of_rounding(const Fitted&);
 
 /// The correlations of the first n numbers; 0 where a variance is 0, as that of a number that is

@@ -79,7 +79,7 @@ std::string disagreement(const Agreement&, const std::vector<Run>&);
 /// so many fits.
 void remark(Tool&, const FitOfRuns&, const FitOptions&, std::size_t fits);
 
-/// Reports how the uncertainties were made, and of which parts; the coefficients of all laws, and
+/// Reports how the uncertainties were made, and their parts; the coefficients of all laws, and
 /// whether another is better than this.
 void report(Tool&, const FitOfRuns&, const LawForm&);
 

@@ -35,9 +35,9 @@ struct FreeRoll {
 ///
 /// Pieces that slow down, one after the other, are one roll if neither speed nor acceleration jumps
 /// between them: a law D(v) is continuous. On a slope, a body that turns goes on with an
-/// acceleration of the same sign. Of several rolls the one that lasts longest is the free one; a
-/// second one is told if it lasts 0.4 of that, or if the roll follows on it with a larger
-/// deceleration, so that it may be a brake.
+/// acceleration of the same sign. The longest of several rolls is the free one; a line names a
+/// second one if it lasts 0.4 of that, or if the roll follows it with a larger deceleration, as
+/// behind a brake.
 ///
 /// A joint is as uncertain as noise makes it. Kept are the samples of the roll that belong to it
 /// wherever the joint lies within three standard errors, less those at its ends that do not agree

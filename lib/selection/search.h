@@ -10,8 +10,8 @@
 
 namespace rolling {
 
-/// The free rolls in samples of this noise, none of which is an outlier: those that slow down alike
-/// at the same speed, the longest first. Times and indices are those of the samples. Each of these
+/// The free rolls in samples of this noise without outliers: those that slow down alike
+/// at the same speed, the longest first. Times and indices are those of the samples. Each sample
 /// is a mean of so many rows, which blurs the joints.
 std::vector<FreeRoll> search_rolls(std::span<const Sample> samples, bool positions, double noise,
                                    std::size_t rows = 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The levels that decide what a user is told or refused, and which standard errors a row has. Each
+// The levels that decide on warnings, refusals and the kind of standard errors of a row. Each
 // with its rate of false alarms, where that was measured: in 1000 good runs of rubber and of
 // felt (make coverage, rolling-fits(7)), unless another place is named.
 #pragma once

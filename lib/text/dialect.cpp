@@ -34,8 +34,8 @@ std::string_view without_sign(std::string_view field) {
   return field;
 }
 
-/// True for `1,002`, whose mark may separate thousands: one to three digits, of which the first is
-/// not 0, before the mark, and three behind it.
+/// True for `1,002`, whose mark may separate thousands: one to three digits before the mark, the
+/// first of them not 0, and three behind it.
 bool may_be_thousands(std::string_view field, char mark) {
   field = without_sign(field);
   const auto at = field.find(mark);

@@ -73,7 +73,7 @@ const HeadLine* choose_names(std::span<const HeadLine>, const UnnamedColumns&, b
                              std::string_view file);
 
 /// Whether the fields of a line are the units of as many names in the line above or below it: none
-/// of them is a known name, and two are known units, or one beside names of which one is known.
+/// of them is a known name, and two are known units, or one if a name is known.
 bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields);
 
 /// Gives a column the unit in a line of units. Refuses one other than that of the name.

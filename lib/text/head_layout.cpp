@@ -31,7 +31,7 @@ std::vector<std::string> labels_of_runs(const std::vector<Column>& line) {
   });
 }
 
-/// The columns, of which those that are of none of these runs have no label but in their names.
+/// The columns. Columns of other runs keep their label in the name alone.
 std::vector<Column> without_other_labels(std::vector<Column> line,
                                          const std::vector<std::string>& runs) {
   for (Column& c : line)

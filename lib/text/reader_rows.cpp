@@ -53,7 +53,7 @@ bool Reader::next_line() {
   return false;
 }
 
-/// True for a comment that has a name for each column, of which two are known ones or those of this
+/// True for a comment that has a name for each column, if two of them are known or those of this
 /// run.
 bool Reader::are_names(std::string_view comment) const {
   const std::vector<Column>& columns = layout().columns;

@@ -65,8 +65,8 @@ bool is_unit(std::string_view text);
 /// free_name() makes.
 std::string unit_at_end(std::string_view quantity, std::string_view name);
 
-/// By quantity, the unit other than SI that a comment says last, and where: a column that has none
-/// of its own is told to be read in SI units all the same.
+/// By quantity, the unit other than SI that a comment names last, and its place. A message says
+/// that a column without a unit is read in SI units all the same.
 struct SaidUnit {
   std::string unit;
   std::size_t line;  ///< the number of the line that says it
