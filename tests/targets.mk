@@ -7,7 +7,7 @@ static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/
 target := number reader scene $(tool)
 
 .PHONY: check-arm64 check-clang check-libcxx check-long static-arm64 fuzz sanitize coverage-lines \
-        mutate coverage bad-runs extremes peers results work-precision work-precision-signal bench \
+        mutate coverage bad-runs lab-rates extremes peers results work-precision work-precision-signal bench \
         lint
 
 -include $(patsubst %.o,%.d,$(call object,$(test) \
@@ -41,7 +41,8 @@ build/catch_main.o:
 	  echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; \
 	fi | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
-# The unit tests of one room of lib/, by themselves: build/unit-fit.
+# The unit tests of one module of lib/, by themselves: build/unit-fit.
+.SECONDEXPANSION:
 build/unit-%: CPPFLAGS += -Itests
 build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main.o build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
@@ -198,6 +199,12 @@ bad-runs: all
 	@PATH="$$PWD/bin:$$PATH" tests/bench/bad-runs.sh $(call short,2) | \
 	  tee $(call short,build,samples)/bad-runs.txt
 
+# How many good folders `samples/lab/lab.sh --check` takes for bad ones, and how many bad ones it finds:
+# some ten minutes.
+lab-rates: all
+	@PATH="$$PWD/bin:$$PATH" tests/bench/lab-rates.sh $(call short,1 3) | \
+	  tee $(call short,build,samples)/lab-rates.txt
+
 # The errors of simulate at the ends of what can be asked, against 30 digits: some seconds.
 extremes: all
 	@PATH="$$PWD/bin:$$PATH" tests/bench/extremes.py $(call short,short) | \
@@ -216,8 +223,9 @@ build/bench/work_precision: LDLIBS += -lsundials_cvode -lsundials_nvecserial \
                                       -lsundials_sunmatrixdense -lsundials_sunlinsoldense
 endif
 
-work-precision: build/bench/ulp build/bench/work_precision
+work-precision: all build/bench/ulp build/bench/work_precision
 	@mkdir -p build/work-precision
+	tests/bench/tools.sh $(call short,2) | tee $(call short,build,samples)/tools.txt
 	build/bench/ulp $(call short,200) | tee build/work-precision/ulp.tsv
 	build/bench/work_precision build/work-precision $(call short,memory-1e-3)
 	tests/bench/work-precision.sh build/work-precision | tee build/work-precision/failures.tsv

@@ -220,19 +220,7 @@ done
 rm -f grow.txt
 
 echo
-echo '# tool            start-up beyond true [ms] (at most 3, user and system)   size [MiB] (stripped; at most 1.5)'
-head -n 12 tv.txt >few.txt
-head -n 13 tva.txt >few-tva.txt
-printf '# v\tD\n1\t1e-3\n2\t3e-3\n3\t4e-3\n4\t6e-3\n' >few-vD.txt
-sed '1s/.*/# t\tv\tD/; 2,$s/$/\t1e-3/' few.txt >few-tvD.txt
-for tool in 'smooth few.txt' 'differentiate few.txt' "shift-from-accel $body few-tva.txt" "energy-ledger $ledger few-tvD.txt" \
-  'fitpower few-vD.txt' "simulate $scene --dt 1"; do
-  times='i=0; while [ $i -lt 100 ]; do'
-  read -r a b _ < <("$speed" compare "$rounds" cpu "$times $tool || exit; i=\$((i + 1)); done" "$times /bin/true; i=\$((i + 1)); done")
-  strip -o stripped "$tools/${tool%% *}"
-  mawk -v tool="${tool%% *}" -v a="$a" -v b="$b" -v size="$(stat -c %s stripped)" 'BEGIN {
-      printf "%-18s %12.2f %55.2f\n", tool, 10 * (a - b), size / 1048576 }'
-done
+../../tests/bench/tools.sh
 
 if $long; then
   echo

@@ -21,6 +21,8 @@ while IFS= read -r source; do
   [ -e "$object" ] || complain "$source is compiled by nobody"
 done < <(find cmd lib tests -name '*.cpp' ! -path '*/build/*')
 
+make -n build/unit-base >"$scratch/said" 2>&1 || complain "build/unit-base: $(cat "$scratch/said")"
+
 # run GOAL: what it prints goes to $scratch/said.
 run() {
   make SHORT=1 "$1" >"$scratch/said" 2>&1 ||
@@ -46,6 +48,9 @@ for goal in $goals; do
         has build/beside.tsv '^CF.rolling.0[.]00'
         break
       done ;;
+    lab-rates)
+      run lab-rates
+      [ "$(sed 1d build/lab-rates.txt | cut -f 3-)" = $'1\t0\t0\n1\t0\t0\n1\t1\t1\n1\t1\t1' ] || complain "$(cat build/lab-rates.txt)" ;;
     extremes)
       python3 -c 'import mpmath' 2>/dev/null || continue
       run extremes
@@ -58,6 +63,9 @@ for goal in $goals; do
       run work-precision
       awk -F '\t' '$1 == "v" && NF == 2 { found = $2 } END { exit !(found > 0 && found < 1e-13) }' \
         build/work-precision/ulp.tsv || complain "ulp: $(head -n 3 build/work-precision/ulp.tsv)"
+      # Nothing is linked that is not called.
+      has build/tools.txt $'^smooth\t[^\t]*\t[^\t]*\tlibfmt$'
+      has build/tools.txt $'^simulate\t[^\t]*\t[^\t]*\tlibfmt libgsl libgslcblas$'
       # The names of the table are those of its rows, and of the page.
       table=build/work-precision/memory-1e-3.txt
       awk -F '\t' '/^#/ { n = NF } !/^#/ && NF && NF != n { exit 1 }' $table || complain "$table: $(head -n 3 $table)"
