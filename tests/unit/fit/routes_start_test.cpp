@@ -123,7 +123,7 @@ TEST_CASE(
   };
   CHECK(refused([](int) { return 1.0; }).starts_with("the data do not determine "));
   CHECK(refused([](int i) { return i < 2 ? 1.0 : 0.0; }) ==
-        fmt::format("the data do not determine the parameters: {}", choose_the_roll));
+        "the data do not determine the parameters");
 }
 
 // The one law that is left comes to its stop while the body still rolls the other way.
@@ -134,8 +134,7 @@ TEST_CASE("first guess: speeds that the one law held has against them are refuse
   FitOptions held;
   held.a = 0.03;
   held.b = 0;
-  CHECK_THROWS_WITH(fit(Route::velocity, {run}, held),
-                    fmt::format("no law a v^b comes near the data: {}", choose_the_roll));
+  CHECK_THROWS_WITH(fit(Route::velocity, {run}, held), "no law a v^b comes near the data");
   run.v[0] = 2;  // the body stops at once, as that law has it
   CHECK(fit(Route::velocity, {run}, held).v0[0].value > 0);
 }
