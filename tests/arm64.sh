@@ -75,7 +75,7 @@ done
 # looks at the sources or the machine. qemu takes some ten times as long.
 status=0
 SLOWER=20 tests/run.sh build/unit tests/tools tests/pipeline/{table1,samples-reproduce,equations}.sh \
-  tests/pipeline/{energy-check,pasco,vernier,shape-factor}.sh tests/house/man-examples.sh || status=1
+  tests/pipeline/{energy-check,pasco,vernier,shape-factor}.sh tests/pages/man-examples.sh || status=1
 
 # What the samples give here and on the machine that makes them: the same bytes.
 products() {  # TOOLS

@@ -171,15 +171,15 @@ def stages(tree, path, near):
         return first
     if path.parts[0] == "lib":
         first.append(("build/unit", ["build/unit", "--abort"]))
-    house = scripts("house", "man-examples readme help-matches-man completion negative-control")
+    pages = scripts("pages", "man-examples readme help-matches-man completion")
     replays = sorted((tree / "tests/fuzz/corpus").iterdir())
     replay = " ".join(f"build/replay/{p.name}" for p in replays)
     return first + [
-        ("all build/shim.so", ["tests/run.sh", "tests/tools", *house]),
+        ("all build/shim.so", ["tests/run.sh", "tests/tools", *pages]),
         ("all", ["tests/run.sh", *scripts("pipeline")]),
         (
             f"all build/shim.so {replay}",
-            ["tests/run.sh", *scripts("faults"), *scripts("house", "terminal")],
+            ["tests/run.sh", *scripts("faults"), *scripts("pages", "terminal")],
         ),
     ]
 

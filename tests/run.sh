@@ -7,7 +7,7 @@
 #
 # UNIT-PROGRAM is a Catch2 program (2.13 or 3): each of its test cases counts. A FOLDER is searched
 # for files of cases, a SCRIPT is one test. Without these: all cases of tests/tools, all scripts of
-# tests/pipeline, tests/faults and tests/house. With :NAME only the cases of that name, a pattern of
+# tests/{pipeline,faults,pages,install,house}. With :NAME only the cases of that name, a pattern of
 # the shell in which hyphens stand for blanks: tests/tools/smooth/filters.cases:mean-*
 #
 # A file of cases holds for each of them what is true, the lines of a shell, and what they print:
@@ -176,7 +176,7 @@ for argument; do
   fi
 done
 if ! $more; then
-  for script in "$root"/tests/pipeline/*.sh "$root"/tests/faults/*.sh "$root"/tests/house/*.sh; do
+  for script in "$root"/tests/{pipeline,faults,pages,install,house}/*.sh; do
     [ ! -e "$script" ] || plan_script "$script"
   done
   plan_folder "$root/tests/tools"

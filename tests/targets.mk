@@ -120,7 +120,7 @@ copy = mkdir -p $1 && rm -rf $(addprefix $1/,cmd lib man samples tests) && \
 # the sizes of programs do not.
 check_in = $(MAKE) -C $1 check SLOWER=5 \
            TESTS='build/unit tests/tools tests/pipeline/*.sh tests/faults/*.sh \
-                  tests/house/terminal.sh'
+                  tests/pages/terminal.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
              -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS
@@ -175,9 +175,9 @@ check-long: check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
 	LONG=1 build/unit
 	LONG=1 tests/faults/memory.sh
-	LONG=1 tests/house/deb.sh
+	LONG=1 tests/install/deb.sh
 	PATH="$$PWD/bin:$$PATH" LONG=1 tests/house/portable.sh
-	LONG=1 tests/house/reproducible.sh
+	LONG=1 tests/install/reproducible.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
 # says of runs with one thing wrong, and which law it finds. Some 20 minutes of two processors.
@@ -277,4 +277,5 @@ lint:
 	  xargs -P $$(nproc) -n 4 \
 	  clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
 	tests/unused.sh
+	set -e; for script in form layers includes words clean-text; do tests/house/$$script.sh; done
 

@@ -63,7 +63,7 @@ table=$scratch/plain/results/table.txt
 [ ! -e hit ] && [ -z "$(find "$scratch" -name hit)" ] || complain "a name was run as code"
 
 # The pages and the README, pasted into a terminal of that locale.
-for examples in tests/house/man-examples.sh tests/house/readme.sh; do
+for examples in tests/pages/man-examples.sh tests/pages/readme.sh; do
   EXAMPLES_LOCALE=de_DE.UTF-8 LOCPATH=$scratch $examples >"$scratch/said" 2>&1 || [ $? = 77 ] ||
     { complain "$examples in de_DE.UTF-8:" && tail -n 60 "$scratch/said"; }
 done

@@ -99,7 +99,7 @@ for awk in mawk 'gawk --posix' original-awk 'busybox awk'; do
   PATH=$scratch/bin:$PATH everything /bin/sh "$scratch/other"
   compare "$awk"
   for name in man-examples readme; do
-    PATH=$scratch/bin:$PATH tests/house/$name.sh >"$scratch/said" 2>&1 || [ $? = 77 ] ||
+    PATH=$scratch/bin:$PATH tests/pages/$name.sh >"$scratch/said" 2>&1 || [ $? = 77 ] ||
       complain "with $awk: $(head -n 20 "$scratch/said")"
   done
 done

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every example of README.md and samples/README.md runs and prints what stands there, in the locale
-# EXAMPLES_LOCALE (C). `tests/house/readme.sh refresh` writes there what they print today: read the
+# EXAMPLES_LOCALE (C). `tests/pages/readme.sh refresh` writes there what they print today: read the
 # diff.
 set -u
 export LC_ALL=C

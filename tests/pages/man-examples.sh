@@ -5,8 +5,8 @@
 # folder, a copy of the top of the checkout with the samples alone: a file that one makes, the next
 # may read.
 #
-#   tests/house/man-examples.sh [PREFIX]     those of the source, or what is installed there
-#   tests/house/man-examples.sh refresh      writes into the pages what they print today: read the diff
+#   tests/pages/man-examples.sh [PREFIX]     those of the source, or what is installed there
+#   tests/pages/man-examples.sh refresh      writes into the pages what they print today: read the diff
 #
 # The examples run in the locale EXAMPLES_LOCALE (C).
 set -u
