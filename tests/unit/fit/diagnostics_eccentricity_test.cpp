@@ -146,6 +146,14 @@ TEST_CASE("eccentricity: the noise of each run is its own", "[fit]") {
   CHECK(found <= 8);
 }
 
+TEST_CASE("eccentricity: it takes 30 rows", "[fit]") {
+  for (const std::size_t rows : {29u, 30u}) {
+    Run run = wobbling(e, 1e-6, 12, 0.2);
+    run.t.resize(rows), run.x.resize(rows);
+    CHECK(fitted(run).eccentricity.has_value() == (rows == 30));
+  }
+}
+
 TEST_CASE("eccentricity: it takes more than one row in each half turn", "[fit]") {
   // A half turn takes pi R/v = 0.25 s.
   CHECK(fitted(wobbling(e, 1e-6, 12, 0.24)).eccentricity);

@@ -237,6 +237,25 @@ TEST_CASE("readings: speeds that are measured otherwise are none") {
   CHECK_FALSE(way_between_pulses(t, std::vector<double>(t.size(), NAN)));
 }
 
+// The pulses of the whole run and of its end are seen; the times of fewer, and of nearly even ones,
+// would fit by chance.
+TEST_CASE("readings: it takes five pulses, and times that differ by 1.3") {
+  const auto speeds_of = [](const std::vector<double>& t) {
+    std::vector<double> v{0};
+    for (std::size_t i = 1; i < t.size(); ++i) v.push_back(0.05 / (t[i] - t[i - 1]));
+    return v;
+  };
+  const auto all = pulses();
+  const std::vector<double> five(all.end() - 5, all.end());
+  const std::vector<double> four(all.end() - 4, all.end());
+  CHECK(way_between_pulses(five, speeds_of(five)));
+  CHECK_FALSE(way_between_pulses(four, speeds_of(four)));
+  for (const double factor : {1.29, 1.31}) {
+    const std::vector<double> t{0, 0.1, 0.2, 0.3, 0.4, 0.4 + 0.1 * factor};
+    CHECK(way_between_pulses(t, speeds_of(t)).has_value() == (factor > 1.3));
+  }
+}
+
 TEST_CASE("readings: those that jump off the motion are counted, and told from a push",
           "[signal]") {
   for (const double slowing : {0.05, 0.2}) {
@@ -269,4 +288,12 @@ TEST_CASE("readings: a counter that starts over is told from a step and from spi
   for (std::size_t i = 50; i < run.size(); ++i) run[i].y = 100;
   CHECK(!start_over(run));
   CHECK(!start_over(std::span<const Sample>(run).first(2)));
+}
+
+TEST_CASE("readings: a counter goes back over nine tenths of its range", "[signal]") {
+  for (const int back : {53, 54}) {
+    std::vector<Sample> run;
+    for (int i = 0; i < 100; ++i) run.push_back({0.04 * i, i < 60. ? i : i - 1. - back});
+    CHECK(start_over(run).has_value() == (back > 0.9 * 59));
+  }
 }
