@@ -55,7 +55,7 @@ put() {
   rmdir "$new"
 }
 # What belongs to the source: runs and results of somebody's own stay where they are. A name that
-# no pattern here fits is told by tests/install/install.sh.
+# fits no pattern here fails tests/install/install.sh.
 samples() {
   set -- samples/*.sh samples/*.svg samples/README.md samples/*.txt samples/rolling.bib \
     samples/[CS][FR].csv samples/[CS][FR].toml \

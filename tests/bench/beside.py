@@ -8,9 +8,9 @@ runs, by the routes of fitpower and by what one would use in its place.
 Each run is one of `simulate --sensor pasco`. rolling takes it as it is. The others get the free roll,
 cut at the times that are known here, and its positions. Printed are, for CR and CF, the standard
 deviation of b, its bias, the share of nominal 95 % intervals that hold the true b, the mean of the
-standard uncertainties as a multiple of that standard deviation, and the processor time of a fit, the
-starts of the programs of rolling included. The rows `of v` fit the velocities that the program of
-the sensor exports.
+standard uncertainties as a multiple of that standard deviation, and the processor time of a fit: that
+of the whole program fitpower, its start included. The rows `of v` fit the velocities that the program
+of the sensor exports.
 """
 import io
 import resource
@@ -85,10 +85,15 @@ def by_lmfit(t, y, start, of_v=False):
     return fit.params["b"].value, fit.params["b"].stderr or np.nan
 
 
-def by_rolling(text, column, route, between=()):
-    for command in (["smooth", "-q", "--coast", "-c", column], *between, ["fitpower", "-q", "--route", route, *BODY]):
+def piped(text, *commands):
+    for command in commands:
         text = subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
-    return [float(cell) for cell in text.splitlines()[-1].split("\t")[2:4]]
+    return text
+
+
+def by_rolling(rows, route):
+    row = piped(rows, ["fitpower", "-q", "--route", route, *BODY]).splitlines()[-1]
+    return [float(cell) for cell in row.split("\t")[2:4]]
 
 
 def seconds():
@@ -103,15 +108,17 @@ for name in ("CR", "CF"):
         text = run(name, seed)
         t, x = readings(text, *law, column=1, margin=0)
         of_v = readings(text, *law, column=2, margin=0.08)
+        roll, roll_of_v = (piped(text, ["smooth", "-q", "--coast", "-c", column]) for column in "xv")
+        shifts = piped(roll, *D_OF_X)
         fits = {
             "log-log by hand": lambda: by_hand(t, x),
             "scipy.odr": lambda: by_odr(t, x, law),
             "lmfit": lambda: by_lmfit(t, x, law),
             "lmfit of v": lambda: by_lmfit(*of_v, law, of_v=True),
-            "rolling": lambda: by_rolling(text, "x", "position"),
-            "rolling of v": lambda: by_rolling(text, "v", "velocity"),
-            "rolling, shift": lambda: by_rolling(text, "x", "shift", D_OF_X),
-            "rolling, loglog": lambda: by_rolling(text, "x", "loglog", D_OF_X),
+            "rolling": lambda: by_rolling(roll, "position"),
+            "rolling of v": lambda: by_rolling(roll_of_v, "velocity"),
+            "rolling, shift": lambda: by_rolling(shifts, "shift"),
+            "rolling, loglog": lambda: by_rolling(shifts, "loglog"),
         }
         for what, fit in fits.items():
             begin = seconds()

@@ -24,7 +24,7 @@ set xlabel 'time of a fit / ms'
 set multiplot layout 1, 2 margins 0.09, 0.98, 0.32, 0.93 spacing 0.08
 do for [p = 1:2] {
   set title titles[p] offset 0, -0.5
-  set ylabel (p == 1 ? 'standard deviation of b' : '') offset 0, 0
+  set ylabel (p == 1 ? 'standard deviation of b' : '')
   if (p == 1) { set key at screen 0.53, 0.02 center bottom maxrows 3 samplen 1 font ',11' } else { unset key }
   plot for [m = 1:8] 'beside.tsv' using (is(p, by[m]) ? $7 : NaN):3 with points lc rgb hue[m] lw 1.5 pt mark[m] \
     ps 0.9 title by[m]
