@@ -76,7 +76,14 @@ figcaption { margin-top: .5rem; font-size: .95rem; color: #333; }
 pre { font-size: .8rem; line-height: 1.35; }
 code { font-size: .85em; background: #f3f1ec; padding: .1em .3em; overflow-wrap: anywhere; }
 figcaption code { display: inline-block; color: #555; }
-.wide { overflow-x: auto; }
+/* A shadow at an edge shows that there is more. */
+.wide { overflow-x: auto; --page: #fff; --edge: rgba(0, 0, 0, .35);
+  background:
+    linear-gradient(to right, var(--page) 40%, transparent) 0 0 / 2rem 100%,
+    linear-gradient(to left, var(--page) 40%, transparent) 100% 0 / 2rem 100%,
+    linear-gradient(to right, var(--edge), transparent) 0 0 / .6rem 100%,
+    linear-gradient(to left, var(--edge), transparent) 100% 0 / .6rem 100%;
+  background-repeat: no-repeat; background-attachment: local, local, scroll, scroll; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0;
   font-size: .95rem; }
 tr { border-bottom: 1px solid #ddd; }
@@ -98,6 +105,7 @@ figure:target .back { display: inline-block; padding: .5rem 0; }
   figcaption, figcaption code { color: #c9c5bc; }
   a { color: #7cb8ef; }
   code { background: #23262b; }
+  .wide { --page: #16181b; --edge: rgba(255, 255, 255, .45); }
   h2, tr { border-color: #44484f; }
   figure svg { background: #f4f1ea; } }
 @media print {
