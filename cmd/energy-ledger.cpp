@@ -95,16 +95,6 @@ std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const
   return laws;
 }
 
-/// The line above the rows of a run: which D, law and scene were used.
-std::string line_of(const Task& task, const LawOfFile& law) {
-  const Body& body = law.contact.body;
-  std::string line = "energy-ledger " + (task.uses_law ? words_of(law.law) : "D");
-  if (body.slope != 0) line += fmt::format(" slope {}", body.slope);
-  if (body.wind != 0) line += fmt::format(" wind {}", body.wind);
-  if (body.road) line += " height " + std::string(shown(task.height));
-  return line;
-}
-
 /// Checks the balance of a run.
 void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
   std::string beyond;
@@ -205,9 +195,8 @@ int write_summary(Tool& tool, Reader& in, const Task& task) {
       [&](const Balance& balance) {
     const Account& energy = balance.energy;
     if (tool.out.plain) tool.out.run_among(in.comments());
-    for (const double cell : {energy.start(), energy.end(), energy.to_mat()}) tool.out.cell(cell);
-    for (const double cell :
-         {energy.closure(), energy.imbalance(), balance.p.closure(), balance.L.closure()}) {
+    for (const double cell : {energy.start(), energy.end(), energy.to_mat(), energy.closure(),
+                              energy.imbalance(), balance.p.closure(), balance.L.closure()}) {
       if (std::isnan(cell)) tool.out.cell("");
       else tool.out.cell(cell);
     }
@@ -269,10 +258,8 @@ int main(int argc, char** argv) {
     if (task.uses_law) task.laws = laws_in_wind(tool, law, task.given, with_errors);
     Reader& in = tool.read({"t", "v", "D"});
     task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
-    if (task.law_of_scene) {
-      task.uses_law = true;
-      task.laws = laws_in_wind(tool, law, task.given, with_errors);
-    }
+    if (task.law_of_scene) task.laws = laws_in_wind(tool, law, task.given, with_errors);
+    task.uses_law |= task.law_of_scene;
     if (!task.uses_law) {
       tool.refuse({"wind"}, "goes with a law");
       tool.need({"radius", "shape-factor"});
@@ -288,11 +275,14 @@ int main(int argc, char** argv) {
     for (const auto& quantity : row) pipe.append(quantity.column());
     return balance_runs(
         tool, in, task, pipe,
-        [&](const LawOfFile& law_of_run) { pipe.set_history(line_of(task, law_of_run)); },
+        [&](const LawOfFile& law_of_run) {
+      pipe.set_history("energy-ledger " + (task.uses_law ? words_of(law_of_run.law) : "D") +
+                       words_of(law_of_run.contact.body, task.height));
+        },
         [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
       for (const auto& quantity : row)
         pipe.put(quantity.of({now, balance, temperature, law_of_run}));
-        },
+    },
         [](const Balance&) {});
   });
 }

@@ -16,10 +16,7 @@ namespace {
 
 const std::map<std::string, Method> methods = [] {
   std::map<std::string, Method> all{{"closed", {Method::closed}}, {"exact", {Method::exact}}};
-  for (std::size_t i = 0; i < steppers; ++i) {
-    const auto stepper = static_cast<Stepper>(i);
-    all[name_of(stepper)] = {Method::solver, stepper};
-  }
+  for (const Stepper stepper : steppers) all[stepper->name] = {Method::solver, stepper};
   return all;
 }();
 
@@ -58,7 +55,7 @@ void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
   });
 }
 
-/// Prints the errors and the run times of the methods on this scene: a row each. A solver that
+/// Prints the errors and the run times of the methods on this scene: a row each. A method that
 /// fails has a row without numbers, and its message.
 void report(Tool& tool, const Scene& scene, double rtol, double end) {
   const Reference right = reference(scene, 200, end);
@@ -68,19 +65,19 @@ void report(Tool& tool, const Scene& scene, double rtol, double end) {
   const auto row = [&](const std::string& name, const Method& method, double tolerance) {
     const Measured m = measure([&] { return start(scene, method, tolerance); }, right);
     out.cell(name);
-    if (method.kind == Method::solver) out.cell(tolerance);
+    if (method.kind == Method::solver || scene.body.road) out.cell(tolerance);
     else out.cell("");
-    if (!m.failure.empty()) {
-      for (int i = 0; i < 4; ++i) out.cell("");
-      tool.say(fmt::format("{}: {}", name, m.failure));
-    } else {
-      out.cell(m.v_error);
-      out.cell(m.stop_error);
-      out.cell(static_cast<double>(m.evaluations));
-      out.cell(m.seconds);
-    }
+    const double numbers[]{m.v_error, m.stop_error, static_cast<double>(m.evaluations), m.seconds};
+    for (const double number : numbers)
+      if (m.failure.empty()) out.cell(number);
+      else out.cell("");
+    if (!m.failure.empty()) tool.say(fmt::format("{}: {}", name, m.failure));
     out.end_line();
   };
+  if (scene.body.road) {
+    for (const double tolerance : {1e-6, 1e-8, rtol}) row("exact", best, tolerance);
+    return;
+  }
   for (const auto& [name, method] : methods)
     if (method.kind == best.kind && (best.kind != Method::solver || method.stepper == best.stepper))
       row(name, method, rtol);
@@ -135,14 +132,18 @@ struct Task {
     if (foretells && roll.v0 != given_v0)
       fail<OptionError>(
           "sigma_x and sigma_v are of another roll than that of the row: say its --v0");
-    if (foretells && !std::isnan(law_of_file.slope) && !tool.on_command_line("slope"))
-      fail<OptionError>(
-          "sigma_x and sigma_v do not have the uncertainty of the slope of the row: say --slope");
+    for (const auto& [name, fitted] :
+         {std::pair("slope", law_of_file.slope), {"wind", law_of_file.wind}})
+      if (foretells && !std::isnan(fitted) && !tool.on_command_line(name))
+        fail<OptionError>(
+            "sigma_x and sigma_v do not have the uncertainty of the {} of the row: say --{}", name,
+            name);
     if (roll.v0 < 0 && roll.body.road) roll.body.road = roll.body.road->mirrored();
     if (roll.v0 < 0)
       way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way,
       roll.body.wind *= way;
     if (!tool.on_command_line("method")) method = best_method(roll);
+    if (road && !report) rtol = finest;
   }
   std::unique_ptr<Motion> start() const { return rolling::start(roll, method, rtol); }
 };
@@ -157,8 +158,7 @@ void check_options(const Tool& tool, const Task& task) {
                 "from 0.3 m on");
   else tool.refuse({"seed", "rate", "resolution", "noise", "lost"}, "goes with --sensor");
   if (task.law.file.empty()) tool.refuse({"run"}, "goes with --law and its rows");
-  if (task.road)
-    tool.refuse({"report", "memory"}, "does not go with --height, which has one method");
+  if (task.road) tool.refuse({"memory"}, "does not go with --height, which has one method");
   if (tool.on_command_line("at"))
     tool.refuse({"dt", "until"}, "does not go with --at, whose file has all times");
   if (task.method.kind != Method::solver && !task.report)
@@ -245,14 +245,14 @@ class RowWriter {
   RowWriter(Output& out, const Task& task) : out_(out), task_(task), numbers_(task.row.size()) {}
 
   void write_header() const {
-    const auto& [body, geometry, law, bulge, v0, x0] = task_.roll;
-    out_.text("## simulate " + words_of(law) +
-              fmt::format(" K {} R {} g {} v0 {}", body.K, body.R, body.g, task_.way * v0) +
-              (body.slope == 0 ? "" : fmt::format(" slope {}", task_.way * body.slope)) +
-              (body.wind == 0 ? "" : fmt::format(" wind {}", task_.way * body.wind)) +
-              (task_.height.empty() ? "" : " height " + std::string(shown(task_.height))) +
-              (task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0)) +
-              (geometry == Geometry::exact ? " exact" : ""));
+    Body body = task_.roll.body;
+    body.slope *= task_.way;
+    body.wind *= task_.way;
+    out_.text(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task_.roll.law),
+                          body.K, body.R, body.g, task_.way * task_.roll.v0,
+                          words_of(body, task_.height),
+                          task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0),
+                          task_.roll.geometry == Geometry::exact ? " exact" : ""));
     out_.end_line();
     std::vector<Column> header;
     for (const auto& quantity : task_.row) header.push_back(quantity.column());

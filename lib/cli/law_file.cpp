@@ -238,6 +238,14 @@ std::string words_of(const Law& law) {
   return words;
 }
 
+std::string words_of(const Body& body, const std::string& height) {
+  std::string words;
+  if (body.slope != 0) words += fmt::format(" slope {}", body.slope);
+  if (body.wind != 0) words += fmt::format(" wind {}", body.wind);
+  if (!height.empty()) words += " height " + std::string(shown(height));
+  return words;
+}
+
 void add_options(Tool& tool, LawOptions& law) {
   tool.number("-a,--coefficient", law.power.a, positive,
               "coefficient a of the law D = a v^b [m (s/m)^b]");

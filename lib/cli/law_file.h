@@ -31,6 +31,9 @@ std::vector<std::string> correlations_of(const LawForm&);
 /// "a 0.00187 b 0.215", "d0 0.001 d2 0.0004" or "table", for `##` lines.
 std::string words_of(const Law&);
 
+/// " slope 0.01 wind 2 height FILE", each if there is one, for `##` lines.
+std::string words_of(const Body&, const std::string& height);
+
 /// The options of a law, and their values.
 struct LawOptions {
   PowerLaw power{not_given, not_given};

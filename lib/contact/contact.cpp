@@ -18,7 +18,7 @@ Incline incline(const Body& c, double x, double v) {
   const double cos = std::sqrt(1 - sin * sin);
   const double all = cos + c.steepness * place.h2 / cos * v * v / c.g;
   if (!(all > 0)) fail("the body leaves the track at x = {:.6g} m, v = {:.6g} m/s", x, v);
-  return {all, sin};
+  return {all, sin / all};
 }
 
 void check_shift(const Body& c, double D) {
@@ -31,32 +31,29 @@ double arm_factor(const Body& c, Geometry geometry, double D) {
   return std::sqrt((c.R - D) / c.R * (1 + D / c.R));  // R - D is exact where D is near R
 }
 
-// Both functions below write 0 - x instead of -x: for x = 0 the result is then +0, and no table
-// shows "-0".
+// Below 0 - x stands for -x: for x = 0 the result is then +0, and no table shows "-0".
+
+Acceleration accelerate(const Body& c, Geometry geometry, double D, const Incline& incline) {
+  const auto [cos, tan] = incline;
+  const double A =
+      geometry == Geometry::exact && std::abs(D) >= c.R ? 0 : arm_factor(c, geometry, D);
+  const double A_D = geometry == Geometry::exact && A > 0 ? -D / (c.R * c.R * A) : 0;
+  const double arm = (c.K + A) * c.R;
+  const double a = 0 - c.g * (D + A * c.R * tan) * cos / arm;
+  const double by_D = -(c.g * cos * (1 + A_D * c.R * tan) + a * A_D * c.R) / arm;
+  return {a, by_D, -c.g * D / arm, -c.g * A * c.R / arm};
+}
 
 double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
   check_shift(c, D);
-  return trial_acceleration(c, geometry, D);
-}
-
-double trial_acceleration(const Body& c, Geometry geometry, double D) {
-  const auto [cos, sin] = incline(c);
-  const double A =
-      std::abs(D) < c.R ? arm_factor(c, geometry, D) : geometry == Geometry::approximate;
-  return 0 - c.g * (D * cos + A * c.R * sin) / ((c.K + A) * c.R);
-}
-
-double trial_acceleration_slope(const Body& c, Geometry geometry, double D) {
-  const auto [cos, sin] = incline(c);
-  if (geometry == Geometry::approximate) return -c.g * cos / ((c.K + 1) * c.R);
-  // of (d cos + A sin) / (K + A) by d, with dA/dd = -d/A
-  const double d = D / c.R, A = std::sqrt(std::max(1e-30, 1 - d * d));
-  return -c.g / c.R * (cos * (c.K + A) + d / A * (d * cos - c.K * sin)) / ((c.K + A) * (c.K + A));
+  return accelerate(c, geometry, D).a;
 }
 
 double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
-  const auto [cos, sin] = incline(c);
-  const double K = c.K, s = 0 - a / c.g;
+  const double cos = incline(c).cos;
+  const double sin = incline(c).sin();
+  const double K = c.K;
+  const double s = 0 - a / c.g;
   if (geometry == Geometry::approximate) return ((1 + K) * c.R * s - c.R * sin) / cos;
   // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, this is
   // K |s| = cos. For larger |s| the root below belongs to A < 0, and its |D| is less than R again,

@@ -12,13 +12,10 @@ namespace rolling {
 
 /// The parts of gravity across the mat (cos theta) and along it (sin theta), tan theta = slope.
 struct Incline {
-  double cos, sin;
+  double cos, tan;
+  double sin() const { return cos * tan; }
 };
-inline Incline incline(const Body& c) {
-  if (c.slope == 0) return {1, 0};
-  const double hypotenuse = std::hypot(1, c.slope);
-  return {1 / hypotenuse, c.slope / hypotenuse};
-}
+inline Incline incline(const Body& c) { return {1 / std::hypot(1, c.slope), c.slope}; }
 
 /// The same on body.road at x, for a body with the speed v: the curvature k, positive in a hollow,
 /// adds k v^2/g to cos theta. Throws Error outside of the table, and where the body leaves the
@@ -31,14 +28,21 @@ void check_shift(const Body&, double D);
 /// A = sqrt(1 - D^2/R^2) (Eq. 8), or 1 in the approximate geometry. The exact one needs |D| <= R.
 double arm_factor(const Body&, Geometry, double D);
 
-/// Acceleration [m/s^2] of a body whose mat acts at the shift D [m] (Eq. 12; theta = 0 there):
+/// The acceleration of a body [m/s^2], and its derivatives by D and by the parts of gravity.
+struct Acceleration {
+  double a, by_D, by_cos, by_sin;
+};
+/// Of a body whose mat acts at the shift D [m] (Eq. 12; theta = 0 there):
 ///     v' = -g (D cos theta + A R sin theta) / ((K + A) R)
-/// Throws Error when |D| > R.
+/// In the exact geometry it goes on beyond |D| = R with A = 0: the error control of a solver then
+/// rejects the step.
+Acceleration accelerate(const Body&, Geometry, double D, const Incline&);
+/// The same on the mat of the body.
+inline Acceleration accelerate(const Body& c, Geometry geometry, double D) {
+  return accelerate(c, geometry, D, incline(c));
+}
+/// The first of them. Throws Error when |D| > R.
 double acceleration_from_shift(const Body&, Geometry, double D);
-/// The same, but continued beyond |D| = R with A = 0 instead of throwing: the error control of a
-/// solver then rejects the step. And its derivative by D [1/s^2].
-double trial_acceleration(const Body&, Geometry, double D);
-double trial_acceleration_slope(const Body&, Geometry, double D);
 
 /// Shift D [m] from an observed acceleration a [m/s^2], the inverse of acceleration_from_shift().
 /// With A = 1 this is Eq. 11, which gives a shift for any acceleration, beyond the radius too. In

@@ -64,12 +64,12 @@ struct LawForm {
   Shift (*shift)(const double* c, double v, double* by_c);
   /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
   /// their derivatives row by row; none where they are the same.
-  void (*written)(const double* c, double* as_written, double* by_c);
+  void (*written)(const double* c, double* as_written, double* by_c) = nullptr;
   /// The inverse: the coefficients that `shift` takes, of those that the formula names.
-  void (*taken)(const double* as_written, double* c);
+  void (*taken)(const double* as_written, double* c) = nullptr;
   /// Starting points of a search, for a D of order one at speeds up to 1; none of a v^b, which the
   /// routes start by themselves.
-  std::vector<std::vector<double>> starts;
+  std::vector<std::vector<double>> starts = {};
   bool is_power = false;  ///< a v^b itself, or a special case of it
   int drag = -1;          ///< the number of the coefficient d2 of v^2, the drag of the air, if any
 

@@ -29,7 +29,7 @@ class Ledger {
       one_minus_A_ = (D / c.R) * (D / c.R) / (1 + A_);  // does not cancel
     }
     // On an incline F_H = m (v' + g sin theta) with v' of Eq. 12.
-    F_H_ = 0 - (D * incline_.cos - c.K * c.R * incline_.sin) * c.m * c.g / ((c.K + A_) * c.R);
+    F_H_ = 0 - (D * incline_.cos - c.K * c.R * incline_.sin()) * c.m * c.g / ((c.K + A_) * c.R);
   }
 
   double v() const { return v_; }                                     ///< velocity [m/s]
@@ -69,11 +69,11 @@ class Ledger {
   /// [W].
   double P_air(double D_air) const { return 0 + omega() * F_N() * D_air; }
   double P_diss() const { return I_E1() + I_E2(); }  ///< dissipated in the mat [W] (Eq. 22)
-  double F_g() const { return body_.m * body_.g * incline_.sin; }  ///< weight along the mat [N]
+  double F_g() const { return body_.m * body_.g * incline_.sin(); }  ///< weight along the mat [N]
   double P_g() const { return F_g() * v_; }  ///< power against gravity on an incline [W]
 
  private:
-  const Body& body_;
+  Body body_;
   Incline incline_;
   double v_, D_, omega_, A_ = 1, one_minus_A_ = 0, F_H_;
 };
@@ -191,7 +191,9 @@ class Balance {
   /// The momenta are left out unless they are asked for. On a road the energy that is lifted is set
   /// by the caller, from the height.
   Balance(const Body& body, bool momenta)
-      : Balance(body, momenta, Ledger(body, Geometry::approximate, 0, 0)) {}
+      : energy(body.slope != 0), p(body.slope != 0 || body.road, at_rest(body).I_pH()),
+        L(false, at_rest(body).I_LH() + at_rest(body).I_LN()), L_H_(at_rest(body).tau_H()),
+        momenta_(momenta) {}
 
   /// Adds the next row of the run: its time [s] and its quantities.
   void push(double t, const Ledger& now) {
@@ -212,9 +214,7 @@ class Balance {
   double L_N() const { return 0 - L.to_mat() - L_H(); }
 
  private:
-  Balance(const Body& body, bool momenta, const Ledger& rest)
-      : energy(body.slope != 0), p(body.slope != 0 || body.road, rest.I_pH()),
-        L(false, rest.I_LH() + rest.I_LN()), L_H_(rest.tau_H()), momenta_(momenta) {}
+  static Ledger at_rest(const Body& body) { return {body, Geometry::approximate, 0, 0}; }
 
   Integral L_H_, air_;
   bool momenta_;

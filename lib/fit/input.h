@@ -25,7 +25,7 @@ struct ShiftOf {
 /// linear and holds for any D.
 inline double acceleration_of(const ShiftOf& by, double D) {
   if (by.geometry == Geometry::exact) check_shift(by.body, D);
-  return trial_acceleration(by.body, by.geometry, D);
+  return accelerate(by.body, by.geometry, D).a;
 }
 
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The

@@ -71,7 +71,7 @@ double integral_of_log(double m, double r, double e) {
 
 Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
     : body_(body), geometry_(geometry), law_(law.in_wind(body.wind)), v0_(v0),
-      cos_(incline(body).cos), sin_(incline(body).sin), way_(1) {
+      incline_(incline(body)), way_(1) {
   if (v0 == 0) {  // a leg of no length, from which nothing moves the end
     end_ = End::stop, stop_ = 0, q0_ = INFINITY;
     return;
@@ -116,38 +116,32 @@ Leg::Point Leg::closed_point(double t) const {
 
 double Leg::speed(double r) const { return v0_ * std::exp(-way_ * r); }
 
-/// D + A R S at the speed u: the force against the motion.
-double Leg::net(double u) const {
-  double D = law_.at(u).D;
-  if (geometry_ == Geometry::exact && D >= body_.R) return D;
-  return D + arm_factor(body_, geometry_, D) * body_.R * body_.slope;
-}
-
 Leg::Rate Leg::rate(double u) const {
   Rate r{};
-  const double R = body_.R, g = body_.g;
-  const auto [D, D_by_log_u] = law_.at(u, r.q_c.data());
+  const double R = body_.R;
+  auto [D, D_by_log_u] = law_.at(u, r.q_c.data());
   const bool exact = geometry_ == Geometry::exact;
-  if (exact && D >= R && (u < v0_ || D > R)) {
+  const bool at_radius = exact && D >= R && (u < v0_ || D > R);
+  if (at_radius) {
     if (u >= v0_) check_shift(body_, D);
-    r = {way_ * g * cos_ / body_.K, 0, 1, 0, 1, {}};
-    if (body_.K > 0) r.q_c[law_.size()] = -r.q * body_.slope * cos_ * cos_;
-    return r;
+    D = R, D_by_log_u = 0, r.q_c = {};
   }
-  const double A = arm_factor(body_, geometry_, D), lift = A * R * body_.slope, net = D + lift,
-               arm = body_.K + A, unit = way_ * g / R / arm;
-  r.q = unit * net * cos_;
-  const double terms_of_net =
-      std::abs(D) + std::abs(lift) + std::abs(D_by_log_u) + std::abs(law_.blast());
-  r.noise = terms_of_net / std::abs(net) + (exact ? 1 / (A * A) : 0);
-  r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
-  r.imbalance = terms_of_net > 0 ? std::abs(net) / terms_of_net : 0;
-  const double A_D = exact ? -D / (R * R * A) : 0,
-               by_D = unit * (cos_ + A_D * R * sin_ - net * cos_ / arm * A_D);
+  const Acceleration now = accelerate(body_, geometry_, D, incline_);
+  r.q = -way_ * now.a;
+  const double by_D = at_radius ? 0 : -way_ * now.by_D;
   r.q_v = by_D * D_by_log_u / u;
   for (std::size_t j = 0; j < law_.size(); ++j) r.q_c[j] *= by_D;
-  r.q_c[law_.size()] = unit * cos_ * cos_ * (A * R * cos_ - D * sin_);  // by S = tan theta
+  const double cos = incline_.cos;
+  const double by_slope = cos * cos * (now.by_sin * cos - now.by_cos * incline_.sin());
+  if (std::isfinite(r.q)) r.q_c[law_.size()] = -way_ * by_slope;
   if (law_.has_drag()) r.q_c[law_.size() + 1] = by_D * law_.by_wind(u);
+  const double A = at_radius ? 0 : arm_factor(body_, geometry_, D);
+  const double lift = A * R * body_.slope;
+  const double terms_of_net =
+      std::abs(D) + std::abs(lift) + std::abs(D_by_log_u) + std::abs(law_.blast());
+  r.noise = at_radius ? 1 : terms_of_net / std::abs(D + lift) + (exact ? 1 / (A * A) : 0);
+  r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
+  r.imbalance = terms_of_net > 0 ? std::abs(D + lift) / terms_of_net : 0;
   return r;
 }
 
@@ -229,7 +223,7 @@ void Leg::add_panel() {
       radius_time_ = sums_[0], radius_speed_ = speed(r_);
       continue;
     }
-    if (to - r_ <= narrowest * (1 + r_) && net(speed(to)) * way_ <= 0) return end_at_last_speed();
+    if (to - r_ <= narrowest * (1 + r_) && rate(speed(to)).q <= 0) return end_at_last_speed();
     const auto [converges, factor] = try_panel(to - r_, deepens);
     if (converges) {
       r_ = to;
@@ -262,7 +256,7 @@ void Leg::reach(double t) {
 }
 
 Leg::Point Leg::point(const Sums& sum, double v, double q) const {
-  Point p{v, v0_ * sum[1], -way_ * q, 1, 0, {}, {}};
+  Point p{.v = v, .x = v0_ * sum[1], .a = -way_ * q, .v_v0 = 1};
   if (q0_ > 0) p.v_v0 = q / q0_, p.x_v0 = std::abs(v0_ - v) / q0_;
   for (std::size_t j = 0; j < derivatives(); ++j) {
     p.v_c[j] = -way_ * q * sum[2 + j];

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/chebyshev.h"
-#include "contact/body.h"
+#include "contact/contact.h"
 #include "contact/law.h"
 
 namespace rolling {
@@ -39,8 +39,8 @@ class Leg {
   struct Point {
     double v, x;
     double a;  ///< dv/dt
-    double v_v0, x_v0;
-    Derivatives v_c, x_c;
+    double v_v0 = 0, x_v0 = 0;
+    Derivatives v_c{}, x_c{};
     double v_x0 = 0, x_x0 = 1;
   };
   /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion, in the wind
@@ -67,12 +67,6 @@ class Leg {
   /// The derivatives of the time of the stop by v0 and by c.
   double stop_time_by_v0() const { return 1 / q0_; }
   Derivatives stop_time_by_c();
-
- protected:
-  Body body_;
-  Geometry geometry_;
-  Law law_;
-  double v0_;
 
  private:
   static constexpr std::size_t terms = 20, values = 2 + 2 * most;
@@ -103,7 +97,6 @@ class Leg {
   enum class End { none, stop, constant_speed, too_fast };
 
   Rate rate(double u) const;
-  double net(double u) const;
   double speed(double r) const;
   /// The number of derivatives: the wind has one if the air slows the body.
   std::size_t derivatives() const { return law_.size() + 1 + law_.has_drag(); }
@@ -118,7 +111,12 @@ class Leg {
   Point beyond_panels(double since) const;  // since the end of the last panel [s]
   Point point(const Sums&, double v, double q) const;
 
-  double q0_, cos_, sin_;
+  Body body_;
+  Geometry geometry_;
+  Law law_;
+  double v0_;
+  Incline incline_;
+  double q0_;
   double way_;                   // 1 if the speed falls, -1 if it grows
   std::optional<double> power_;  // b of the closed forms
   Derivatives q_c_{};            // q_c/q at v0, for these

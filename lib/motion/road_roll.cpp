@@ -12,7 +12,6 @@
 namespace rolling {
 namespace {
 
-constexpr double tolerance = 1e-12;     // of a step
 constexpr double at_rest = 1e-10;       // of the highest speed
 constexpr double least_speed = 1e-200;  // where the derivative of a v^b by b has a number
 constexpr double alike = 0.2;           // part of dv/dt by which it changes over the way to a turn
@@ -23,7 +22,8 @@ enum { of_t, of_x, of_clock, first };
 
 }  // namespace
 
-RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
+RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v0, double x0,
+                   double tolerance)
     : body_(body), geometry_(geometry), with_(law.in_wind(body.wind)),
       against_(law.in_wind(-body.wind)), x0_(x0), highest_(std::abs(v0)), count_(law.size() + 3) {
   body.road->check(x0);
@@ -44,6 +44,17 @@ RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v
     end_[first + 3] = 1;
     heading_ = -1;
   }
+  const std::vector<double> units(end_.size(), 1);
+  ode_ = Integrator(*this, gsl_odeiv2_step_rk8pd, {0.1 * tolerance, 1e-30, tolerance, units}, end_);
+}
+
+void RoadRoll::leaves(const char* what) const {
+  fail("the body leaves {} at t = {:.6g} s, x = {:.6g} m", what, end_[of_t],
+       body_.road->way() * end_[of_x]);
+}
+
+double RoadRoll::Segment::speed(double clock) const {
+  return of_place() ? std::sqrt(2 * clock) : clock * clock * clock * clock;
 }
 
 /// The formula of the class, with trial values of u and x.
@@ -52,32 +63,24 @@ RoadRoll::Rate RoadRoll::rate(double u, double x, double way) const {
   const Law& law = way > 0 ? with_ : against_;
   const Road::Place place = body_.road->at(x);
   const double f = body_.steepness;
-  const double g = body_.g;
   const double sin = f * place.h1 + body_.slope;
   const double cos2 = 1 - sin * sin;
   const double cos = std::sqrt(cos2);
-  const double bend = f * place.h2 / cos;
+  const double curve = u * u / body_.g / cos;  // times h'' it adds to the cosine
+  const double across = cos + curve * f * place.h2;
   const auto [D, D_by_log_u] = law.at(u, r.a_p);
-  const bool exact = geometry_ == Geometry::exact;
-  const double ratio = D / body_.R;
-  const double A = !exact ? 1 : std::sqrt(std::max(0.0, 1 - ratio * ratio));
-  const double A_D = exact && A > 0 ? -ratio / body_.R / A : 0;
-  const double arm = (body_.K + A) * body_.R;
-  const double lift = body_.R * g * way * sin;
-  r.N = g * cos + bend * u * u;
-  r.a = -(D * r.N + A * lift) / arm;
-  const double by_D = -(r.N + A_D * lift + r.a * A_D * body_.R) / arm;
-  r.a_u = u > 0 ? by_D * D_by_log_u / u - 2 * D * bend * u / arm : 0;
-  // By a change of the sine, and by that of h''.
-  const double by_bend = -D * u * u / arm;
-  const double by_sin = -(D * (-g * sin / cos) + A * body_.R * g * way) / arm +
-                        by_bend * f * place.h2 * sin / (cos2 * cos);
-  r.a_x = by_sin * f * place.h2 + by_bend * f * place.h3 / cos;
+  const Acceleration now = accelerate(body_, geometry_, D, {across, way * sin / across});
+  r.N = across * body_.g;
+  r.a = now.a;
+  r.a_u = u > 0 ? (now.by_D * D_by_log_u + 2 * now.by_cos * curve * f * place.h2) / u : 0;
+  const double by_bend = now.by_cos * curve;
+  const double by_sin = way * now.by_sin + (by_bend * f * place.h2 / cos2 - now.by_cos / cos) * sin;
+  r.a_x = by_sin * f * place.h2 + by_bend * f * place.h3;
   const std::size_t n = law.size();
-  for (std::size_t j = 0; j < n; ++j) r.a_p[j] *= by_D;
+  for (std::size_t j = 0; j < n; ++j) r.a_p[j] *= now.by_D;
   r.a_p[n] = by_sin;
-  r.a_p[n + 1] = way * by_D * law.by_wind(u);
-  r.a_p[n + 2] = by_sin * place.h1 + by_bend * place.h2 / cos;
+  r.a_p[n + 1] = way * now.by_D * law.by_wind(u);
+  r.a_p[n + 2] = by_sin * place.h1 + by_bend * place.h2;
   return r;
 }
 
@@ -86,80 +89,64 @@ bool RoadRoll::holds(double x, double way) const {
   return rate(0, x, way).a <= 0 || rate(Leg::negligible * highest_, x, way).a <= 0;
 }
 
-/// The way to the next point of the table; 0 at its end.
-double RoadRoll::room(double x, double way) const {
+/// The next point of the table; at its end x itself.
+double RoadRoll::next_point(double x, double way) const {
   const std::vector<double>& points = body_.road->points();
   if (way > 0) {
     const auto next = std::ranges::upper_bound(points, x);
-    return next == points.end() ? 0 : *next - x;
+    return next == points.end() ? x : *next;
   }
   const auto next = std::ranges::lower_bound(points, x);
-  return next == points.begin() ? 0 : x - *(next - 1);
+  return next == points.begin() ? x : *(next - 1);
 }
 
-Integrator RoadRoll::clock_of(bool of_place) {
-  const auto by_place = [this](const double* y, double* dy) {
-    const double u = std::sqrt(2 * y[of_clock]);
-    const Rate r = rate(u, y[of_x], way_);
-    dy[of_t] = 1 / u;
-    dy[of_x] = way_;
-    dy[of_clock] = r.a;
-    for (std::size_t p = 0; p < 2 + count_; ++p) {
-      const double* const by = y + first + 2 * p;
-      double* const d = dy + first + 2 * p;
-      d[0] = -by[1] / (u * u * u);
-      d[1] = r.a_u / u * by[1] + (p < 2 ? 0 : r.a_p[p - 2]);
+/// How fast dv/dt changes at most with x up to the next point: h'' is linear there.
+double RoadRoll::bend(double u, double x, double way) const {
+  return std::max(std::abs(rate(u, x, way).a_x), std::abs(rate(u, next_point(x, way), way).a_x));
+}
+
+void RoadRoll::derivative(const double* y, double* dy) const {
+  const bool of_place = change_ == 0;
+  const double w = y[of_clock];
+  const double u = of_place ? std::sqrt(2 * w) : std::max(w * w * w * w, least_speed);
+  const Rate r = rate(u, y[of_x], way_);
+  const double dt = pace_ * (of_place ? 1 / u : change_ * 4 * w * w * w / r.a);
+  dy[of_t] = dt;
+  dy[of_x] = way_ * (of_place ? pace_ : u * dt);
+  dy[of_clock] = pace_ * (of_place ? r.a : change_);
+  for (std::size_t p = 0; p < 2 + count_; ++p) {
+    const double* const by = y + first + 2 * p;
+    double* const d = dy + first + 2 * p;
+    const double a_p = p < 2 ? 0 : r.a_p[p - 2];
+    if (of_place) {
+      d[0] = -pace_ * by[1] / (u * u * u);
+      d[1] = pace_ * (r.a_u / u * by[1] + a_p);
+    } else {
+      d[0] = -dt * (r.a_x * by[1] + a_p) / r.a;
+      d[1] = way_ * u * d[0];
     }
-  };
-  const auto by_speed = [this](const double* y, double* dy) {
-    const double w = y[of_clock];
-    const double u = std::max(w * w * w * w, least_speed);
-    const Rate r = rate(u, y[of_x], way_);
-    const double dt = change_ * 4 * w * w * w / r.a;
-    dy[of_t] = dt;
-    dy[of_x] = way_ * u * dt;
-    dy[of_clock] = change_;
-    for (std::size_t p = 0; p < 2 + count_; ++p) {
-      const double* const by = y + first + 2 * p;
-      double* const d = dy + first + 2 * p;
-      const double a = r.a_x * by[1] + (p < 2 ? 0 : r.a_p[p - 2]);
-      d[0] = -dt * a / r.a;
-      d[1] = -way_ * u * dt * a / r.a;
-    }
-  };
-  OdeSystem system{by_place, nullptr, [](const double*) { return INFINITY; }};
-  if (!of_place) system.derivative = by_speed;
-  system.derivative = [this, forward = std::move(system.derivative)](const double* y, double* dy) {
-    forward(y, dy);
-    for (std::size_t i = 0; i < end_.size(); ++i) dy[i] *= pace_;
-  };
-  return {std::move(system), Stepper::rk8pd,
-          Tolerance{0.1 * tolerance, 1e-30, tolerance, std::vector<double>(end_.size(), 1)}, end_};
+  }
 }
 
 /// The state after this much of the clock of a segment, back to the beginning if it is below 0.
-std::vector<double> RoadRoll::along(const Segment& segment, const std::vector<double>& from,
-                                    double length) {
+RoadRoll::State RoadRoll::along(const Segment& segment, const State& from, double length) {
   if (length == 0) return from;
   way_ = segment.way;
   change_ = segment.change;
   pace_ = length > 0 ? 1 : -1;
-  std::optional<Integrator>& clock = change_ == 0 ? by_place_ : by_speed_;
-  if (!clock) clock = clock_of(change_ == 0);
-  clock->restart(0, from);
+  ode_->restart(0, from);
   unsigned long steps = 10'000;
   try {
-    clock->advance(
-        std::abs(length), [](const std::vector<double>&) { return 1.0; }, steps);
+    ode_->advance(std::abs(length), steps);
   } catch (const Error&) {  // its time is the clock
     fail("the motion cannot be followed beyond t = {:.6g} s, x = {:.6g} m", from[of_t],
          body_.road->way() * from[of_x]);
   }
-  return clock->state();
+  return ode_->state();
 }
 
 /// Converts a state from the clock x to the clock u, and back.
-void RoadRoll::to_speed(std::vector<double>& y, double way) const {
+void RoadRoll::to_speed(State& y, double way) const {
   const double u = std::sqrt(2 * y[of_clock]);
   const double a = rate(u, y[of_x], way).a;
   for (std::size_t i = first; i < y.size(); i += 2) {
@@ -170,7 +157,7 @@ void RoadRoll::to_speed(std::vector<double>& y, double way) const {
   y[of_clock] = std::sqrt(std::sqrt(u));
 }
 
-void RoadRoll::to_place(std::vector<double>& y, double way) const {
+void RoadRoll::to_place(State& y, double way) const {
   const double u = std::pow(y[of_clock], 4);
   const double a = rate(u, y[of_x], way).a;
   for (std::size_t i = first; i < y.size(); i += 2) {
@@ -188,12 +175,11 @@ RoadRoll::Segment RoadRoll::from_rest() const {
   for (const double way : {-heading_, heading_}) {
     if (holds(x, way)) continue;
     const Rate r = rate(least_speed, x, way);
-    const double length = std::min(room(x, way), alike * r.a / std::abs(r.a_x));
+    const double room = std::abs(next_point(x, way) - x);
+    const double length = std::min(room, alike * r.a / bend(least_speed, x, way));
     double u = std::sqrt(length * r.a);
     while (!(rate(u, x, way).a > r.a / 2) && u > 0) u /= 2;
-    if (!(u > 0))
-      fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t],
-           body_.road->way() * x);
+    if (!(u > 0)) leaves("the table of heights");
     Segment next{way, 1, std::pow(u, 0.25), end_};
     if (segments_.empty()) next.begin[first] = -way / r.a;  // by v0, at a fixed speed
     return next;
@@ -204,32 +190,27 @@ RoadRoll::Segment RoadRoll::from_rest() const {
 /// From a body that moves: to the next point, but not over more than half of its energy; or to the
 /// turn.
 RoadRoll::Segment RoadRoll::onwards() {
-  Segment next{heading_, 0, room(end_[of_x], heading_), end_};
+  const double x = end_[of_x];
+  Segment next{heading_, 0, std::abs(next_point(x, heading_) - x), end_};
   const double E = end_[of_clock];
   const double u = std::sqrt(2 * E);
   highest_ = std::max(highest_, u);
-  const Rate r = rate(u, end_[of_x], heading_);
-  if (!(r.N > 0))
-    fail("the body leaves the track at t = {:.6g} s, x = {:.6g} m", end_[of_t],
-         body_.road->way() * end_[of_x]);
-  if (next.length == 0)
-    fail("the body leaves the table of heights at t = {:.6g} s, x = {:.6g} m", end_[of_t],
-         body_.road->way() * end_[of_x]);
+  const Rate r = rate(u, x, heading_);
+  if (!(r.N > 0)) leaves("the track");
+  if (next.length == 0) leaves("the table of heights");
   if (u <= at_rest * highest_) {
     next.length = 0;
     return next;
   }
-  // How fast dv/dt changes up to the next point, where h'' is linear.
-  const double there = end_[of_x] + heading_ * next.length;
-  const double bend = std::max(std::abs(r.a_x), std::abs(rate(u, there, heading_).a_x));
-  const double slows = -std::max(r.a, rate(least_speed, end_[of_x], heading_).a);
-  if (slows > 0 && E < 2 * next.length * slows && bend * E < alike * slows * slows) {
+  const double changes = bend(u, x, heading_) * E;
+  const double slows = -std::max(r.a, rate(least_speed, x, heading_).a);
+  if (slows > 0 && E < 2 * next.length * slows && changes < alike * slows * slows) {
     next.change = -1;
     to_speed(next.begin, heading_);
     next.length = next.begin[of_clock];
   } else {
     const double a = std::max(0.0, -r.a);
-    next.length = std::min(next.length, E / (a + std::sqrt(a * a + bend * E)));
+    next.length = std::min(next.length, E / (a + std::sqrt(a * a + changes)));
   }
   return next;
 }
@@ -240,6 +221,8 @@ void RoadRoll::add_segment() {
   Segment next = in_place_ ? onwards() : from_rest();
   heading_ = next.way;
   if (!next.rests()) end_ = along(next, next.begin, next.length);
+  const double point = next_point(next.begin[of_x], next.way);
+  if (next.of_place() && next.length == std::abs(point - next.begin[of_x])) end_[of_x] = point;
   in_place_ = next.change >= 0;
   if (next.change > 0) to_place(end_, next.way);
   if (next.change < 0) end_[of_clock] = 0;
@@ -247,11 +230,10 @@ void RoadRoll::add_segment() {
 }
 
 /// The state by its derivatives at a fixed time, this much later than y, which is hardly more.
-RoadRoll::Point RoadRoll::point(const Segment& segment, const std::vector<double>& y,
-                                double after) const {
-  const bool of_place = segment.change == 0;
+RoadRoll::Point RoadRoll::point(const Segment& segment, const State& y, double after) const {
+  const bool of_place = segment.of_place();
   const double way = segment.way;
-  const double u = of_place ? std::sqrt(2 * y[of_clock]) : std::pow(y[of_clock], 4);
+  const double u = segment.speed(y[of_clock]);
   const Rate r = rate(std::max(u, least_speed), y[of_x], way);
   Point p{};
   p.a = segment.rests() ? 0 : way * r.a;
@@ -270,51 +252,33 @@ RoadRoll::Point RoadRoll::point(const Segment& segment, const std::vector<double
   return p;
 }
 
-/// The state at t within a segment. The clock is found by Newton's method, from a cubic through
-/// both ends.
-RoadRoll::Point RoadRoll::landing(const Segment& segment, const std::vector<double>& end,
-                                  double t) {
-  const bool of_place = segment.change == 0;
-  const auto speed = [&](double clock) {
-    return of_place ? std::sqrt(2 * clock) : std::pow(clock, 4);
-  };
-  const auto slope = [&](double u, double x) { return of_place ? u : rate(u, x, segment.way).a; };
-  const std::vector<double>& begin = segment.begin;
-  const double u = speed(begin[of_clock]);
-  const double all = end[of_t] - begin[of_t];
-  const double part = (t - begin[of_t]) / all;
-  const double from = of_place ? 0 : u;
-  double to = segment.length;
-  double last = of_place ? std::sqrt(2 * end[of_clock]) : 0;
-  if (segment.change > 0) to = std::sqrt(2 * end[of_clock]);
-  if (segment.change < 0) to = 0;
-  if (!of_place) last = to;
-  const double rise = to - from;
-  const double bend_0 = slope(u, begin[of_x]) * all - rise;
-  const double bend_1 = rise - slope(last, end[of_x]) * all;
-  double q = from + rise * part + part * (1 - part) * (bend_0 * (1 - part) + bend_1 * part);
-  std::vector<double> y = begin;
-  double there = 0;  // of the clock
-  for (int i = 0; i < 8; ++i) {
-    q = std::clamp(q, std::min(from, to), std::max(from, to));
-    const double length = of_place ? q : segment.change * (std::pow(q, 0.25) - begin[of_clock]);
-    y = along(segment, y, length - there);
-    there = length;
-    const double left = t - y[of_t];
-    if (std::abs(left) <= 1e-10 * all) break;
-    q += slope(speed(y[of_clock]), y[of_x]) * left;
-  }
-  return point(segment, y, t - y[of_t]);
-}
-
+/// Within a segment the clock is found by Newton's method: from its beginning, or from the time
+/// that was asked for before.
 RoadRoll::Point RoadRoll::at(double t) {
   const auto rests = [&] { return !segments_.empty() && segments_.back().rests(); };
   while (!rests() && (segments_.empty() || end_[of_t] <= t)) add_segment();
   const auto after =
       std::ranges::upper_bound(segments_, t, {}, [](const Segment& s) { return s.begin[of_t]; });
-  const Segment& segment = *(after - 1);
+  const auto number = static_cast<std::size_t>(after - segments_.begin()) - 1;
+  const Segment& segment = segments_[number];
   if (segment.rests() || t == segment.begin[of_t]) return point(segment, segment.begin, 0);
-  return landing(segment, after == segments_.end() ? end_ : after->begin, t);
+  if (here_.empty() || of_here_ != number || here_[of_t] > t) here_ = segment.begin;
+  of_here_ = number;
+  const bool of_place = segment.of_place();
+  const double all = (after == segments_.end() ? end_ : after->begin)[of_t] - segment.begin[of_t];
+  for (int i = 0; i < 8; ++i) {
+    const double left = t - here_[of_t];
+    if (std::abs(left) <= 1e-10 * all) break;
+    const double u = segment.speed(here_[of_clock]);
+    const double a = rate(std::max(u, least_speed), here_[of_x], segment.way).a;
+    const double there =
+        of_place ? (u + a * left / 2) * left
+                 : segment.change * (std::pow(std::max(u + a * left, 0.0), 0.25) - here_[of_clock]);
+    const double begun = of_place ? segment.way * (here_[of_x] - segment.begin[of_x])
+                                  : segment.change * (here_[of_clock] - segment.begin[of_clock]);
+    here_ = along(segment, here_, std::clamp(there, -begun, segment.length - begun));
+  }
+  return point(segment, here_, t - here_[of_t]);
 }
 
 /// The segment that begins at the first turning point, or the rest; none if that is later than t.

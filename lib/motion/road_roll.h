@@ -22,14 +22,15 @@ namespace rolling {
 ///
 /// A body that the track holds at a turning point rests. A speed below 1e-10 of the highest counts
 /// as rest.
-class RoadRoll {
+class RoadRoll : OdeSystem {
  public:
   static constexpr std::size_t shared = LawForm::most + 3;  ///< of the law, slope, wind, steepness
   using Point = Leg::Point;
   /// From x0 with v0, which may be below 0, on body.road, whose heights are multiplied by
-  /// body.steepness. Errors as those of Leg, and where x0 is outside of the table.
-  RoadRoll(const Body&, Geometry, const Law&, double v0, double x0);
-  RoadRoll(const RoadRoll&) = delete;
+  /// body.steepness; with this error of a step. Errors as those of Leg, and where x0 is outside of
+  /// the table.
+  RoadRoll(const Body&, Geometry, const Law&, double v0, double x0, double tolerance = 1e-12);
+  RoadRoll(const RoadRoll&) = delete;  // the integrator refers to it
   RoadRoll& operator=(const RoadRoll&) = delete;
 
   /// The state at t >= 0, x counted from x0. Throws Error if the body leaves the track or the table
@@ -41,8 +42,10 @@ class RoadRoll {
   Leg::Derivatives stop_time_by_c();
   /// True if the body rolls on after stop_time().
   bool turns() { return !turn(INFINITY)->rests(); }
+  unsigned long evaluations() const { return ode_->evaluations(); }  ///< so far
 
  private:
+  using State = std::vector<double>;  // t, x, E or w, and two derivatives by each parameter
   struct Rate {
     double a;         // du/dt
     double a_u, a_x;  // its derivatives
@@ -51,26 +54,29 @@ class RoadRoll {
   };
   /// A piece of the motion by one clock.
   struct Segment {
-    double way;                 // the direction of the motion
-    double change;              // 0: the clock is x; else w, which falls (-1) or grows (1)
-    double length;              // of the clock; 0 of the rest
-    std::vector<double> begin;  // t, x, E or w, and two derivatives by each parameter
+    double way;     // the direction of the motion
+    double change;  // 0: the clock is x; else w, which falls (-1) or grows (1)
+    double length;  // of the clock; 0 of the rest
+    State begin;
+    bool of_place() const { return change == 0; }
     bool rests() const { return length == 0; }
+    double speed(double clock) const;  // at this E or w
   };
 
   Rate rate(double u, double x, double way) const;
   bool holds(double x, double way) const;
-  double room(double x, double way) const;
-  Integrator clock_of(bool of_place);
-  std::vector<double> along(const Segment&, const std::vector<double>& from, double length);
-  void to_speed(std::vector<double>& y, double way) const;
-  void to_place(std::vector<double>& y, double way) const;
+  double next_point(double x, double way) const;
+  double bend(double u, double x, double way) const;
+  void derivative(const double* y, double* dy) const override;
+  State along(const Segment&, const State& from, double length);
+  void to_speed(State&, double way) const;
+  void to_place(State&, double way) const;
   Segment from_rest() const;
   Segment onwards();
   void add_segment();
   const Segment* turn(double t);
-  Point point(const Segment&, const std::vector<double>& y, double after) const;
-  Point landing(const Segment&, const std::vector<double>& end, double t);
+  Point point(const Segment&, const State&, double after) const;
+  [[noreturn]] void leaves(const char* what) const;
 
   Body body_;
   Geometry geometry_;
@@ -78,11 +84,13 @@ class RoadRoll {
   double x0_, highest_;
   std::size_t count_;  // of the parameters, beside v0 and x0, which are the first
   std::vector<Segment> segments_;
-  std::vector<double> end_;  // of the last one
-  bool in_place_ = false;    // its clock is x; else w, which is 0
-  double heading_;           // the direction of the motion; at rest that of the last one
+  State end_;              // of the last one
+  bool in_place_ = false;  // its clock is x; else w, which is 0
+  double heading_;         // the direction of the motion; at rest that of the last one
   double way_ = 1, change_ = 0, pace_ = 1;  // of the piece that is being integrated
-  std::optional<Integrator> by_place_, by_speed_;
+  State here_;                              // of the time that was asked for last,
+  std::size_t of_here_ = 0;                 // in this segment
+  std::optional<Integrator> ode_;
 };
 
 }  // namespace rolling

@@ -49,10 +49,13 @@ void check_roll(const Body& body, const Law& law, double v0) {
   check_shift(body, D);
 }
 
-Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0, double x0)
-    : Leg(checked(body, law, body.road ? std::abs(v0) : v0), geometry, law, body.road ? 0 : v0),
-      way_on_(v0 == 0 && holds(-1) ? 1 : -1), turns_((v0 == 0 || slows()) && !holds(way_on_)) {
-  if (body.road) road_ = std::make_shared<RoadRoll>(body, geometry, law, v0, x0);
+Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0, double x0,
+           double tolerance)
+    : body_(checked(body, law, body.road ? std::abs(v0) : v0)), geometry_(geometry),
+      law_(law.in_wind(body.wind)), v0_(body.road ? 0 : v0), ahead_(body, geometry, law, v0_),
+      way_on_(v0 == 0 && holds(-1) ? 1 : -1),
+      turns_((v0 == 0 || ahead_.slows()) && !holds(way_on_)) {
+  if (body.road) road_ = std::make_shared<RoadRoll>(body, geometry, law, v0, x0, tolerance);
 }
 
 /// Slope and wind as a body sees them that rolls in this direction.
@@ -68,10 +71,7 @@ Body Roll::from_rest(double way) const {
 bool Roll::holds(double way) const {
   const Body body = from_rest(way);
   const Law law = law_.in_wind(body.wind);
-  const auto balances = [&](double D) {
-    if (geometry_ == Geometry::exact && D >= body.R) return true;
-    return D + arm_factor(body, geometry_, D) * body.R * body.slope >= 0;
-  };
+  const auto balances = [&](double D) { return accelerate(body, geometry_, D).a <= 0; };
   return balances(law.at_rest()) || balances(law.at(Leg::negligible * v0_).D);
 }
 
@@ -84,22 +84,20 @@ Leg& Roll::back() {
   return *back_;
 }
 
-double Roll::last_speed() { return turns_ ? way_on_ * back().last_speed() : Leg::last_speed(); }
-
 // With T and X the time and the place of the turning point, on the way back v = -u(t - T) and
 // x = X - way(t - T).
 Roll::Point Roll::at(double t) {
   if (road_) return road_->at(t);
-  if (!turns_ || stop_until(t) > t) return Leg::at(t);
-  const double since = t - stop_time(), sign = way_on_;
-  const Point turn = Leg::at(stop_time());
+  if (!turns_ || stop_until(t) > t) return ahead_.at(t);
+  const double since = t - stop_time();
+  const double sign = way_on_;
+  const Point turn = ahead_.at(stop_time());
   const Derivatives T_c = stop_time_by_c();
-  const double T_v0 = stop_time_by_v0();
-  Point p{}, q = back().at(since);
-
-  p.a = sign * q.a;
-  p.v = since > 0 ? sign * q.v : 0, p.x = turn.x + sign * q.x;
-  p.v_v0 = -sign * q.a * T_v0, p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
+  const double T_v0 = ahead_.stop_time_by_v0();
+  const Point q = back().at(since);
+  Point p{.v = since > 0 ? sign * q.v : 0, .x = turn.x + sign * q.x, .a = sign * q.a};
+  p.v_v0 = -sign * q.a * T_v0;
+  p.x_v0 = turn.x_v0 - sign * q.v * T_v0;
   for (std::size_t j = 0; j < most; ++j) {
     const double by = j < law_.size() ? 1 : sign;  // slope and wind as it sees them
     p.v_c[j] = sign * (by * q.v_c[j] - q.a * T_c[j]);

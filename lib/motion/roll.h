@@ -30,33 +30,43 @@ void check_roll(const Body&, const Law&, double v0);
 /// the speed comes near to its last one. x and v0 count along the motion, so the slope and the wind
 /// of the Body are those that this roll sees: whoever describes a roll towards falling x by v0 > 0
 /// turns their signs.
-class Roll : Leg {
+class Roll {
  public:
-  using Leg::most, Leg::Point, Leg::Derivatives;
-  // Of the first leg; its stop is the turning point of a roll that turns.
-  using Leg::radius_speed, Leg::radius_time, Leg::rest_speed;
-  double stop_time() { return road_ ? road_->stop_time() : Leg::stop_time(); }
-  Derivatives stop_time_by_c() { return road_ ? road_->stop_time_by_c() : Leg::stop_time_by_c(); }
-  double stop_until(double t) { return road_ ? road_->stop_until(t) : Leg::stop_until(t); }
+  static constexpr std::size_t most = Leg::most;
+  using Point = Leg::Point;
+  using Derivatives = Leg::Derivatives;
 
   /// Throws Error unless R > 0, g > 0, K >= 0, v0 >= 0, all of them and the slope finite; where the
   /// law, which may be a table, does not reach up to v0 or has no finite value there; and in the
   /// exact geometry for D(v0) > R.
-  /// x0 is where the roll begins on a road, whose errors are those of RoadRoll; there v0 may be
-  /// below 0.
-  Roll(const Body&, Geometry, const Law&, double v0, double x0 = 0);
+  /// x0 and the tolerance are those of a RoadRoll, whose errors it has then; there v0 may be below
+  /// 0.
+  Roll(const Body&, Geometry, const Law&, double v0, double x0 = 0, double tolerance = 1e-12);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
   /// the coefficients of the law and, behind them, by the slope and the wind. Once the body rests,
   /// v is 0 with derivatives 0.
   Point at(double t);
 
+  /// When v becomes 0 [s], for good or at the first turning point; infinity if it never does. A
+  /// last speed below 1e-6 v0, which a falling mat may leave, counts as rest.
+  double stop_time() { return road_ ? road_->stop_time() : ahead_.stop_time(); }
+  /// The same if it is not later than t, else infinity.
+  double stop_until(double t) { return road_ ? road_->stop_until(t) : ahead_.stop_until(t); }
+  Derivatives stop_time_by_c() { return road_ ? road_->stop_time_by_c() : ahead_.stop_time_by_c(); }
+  /// The speed at the stop: 0, or that just named.
+  double rest_speed() const { return ahead_.rest_speed(); }
+  /// Of the first leg, as in Leg.
+  double radius_time(double t) { return ahead_.radius_time(t); }
+  double radius_speed() const { return ahead_.radius_speed(); }
   /// True if the body rolls back after stop_time().
   bool turns() { return road_ ? road_->turns() : turns_; }
   /// The direction in which it rolls then: -1, but 1 for one that begins at rest and rolls forward.
   double way_on() const { return way_on_; }
   /// The limit of v for a body that rolls for ever [m/s], which may be infinite; else 0.
-  double last_speed();
+  double last_speed() { return turns_ ? way_on_ * back().last_speed() : ahead_.last_speed(); }
+  /// Of the differential equations of a road, so far.
+  unsigned long evaluations() const { return road_ ? road_->evaluations() : 0; }
 
   const Body& body() const { return body_; }
   const Law& law() const { return law_; }  ///< in the wind
@@ -66,8 +76,13 @@ class Roll : Leg {
   bool holds(double way) const;
   Leg& back();
 
+  Body body_;
+  Geometry geometry_;
+  Law law_;
+  double v0_;
+  Leg ahead_;                       // on a road of no length
+  std::optional<Leg> back_;         // if it has been asked for
   std::shared_ptr<RoadRoll> road_;  // if the body has one; shared by copies
-  std::optional<Leg> back_;
   double way_on_;
   bool turns_;
 };

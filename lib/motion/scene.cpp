@@ -15,9 +15,9 @@ namespace {
 /// The motion of a Roll.
 class SpeedRoll final : public Motion {
  public:
-  SpeedRoll(const Scene& scene)
-      : roll_(scene.body, scene.geometry, scene.law, scene.v0, scene.x0), geometry_(scene.geometry),
-        x0_(scene.x0) {
+  SpeedRoll(const Scene& scene, double tolerance)
+      : roll_(scene.body, scene.geometry, scene.law, scene.v0, scene.x0, tolerance),
+        geometry_(scene.geometry), x0_(scene.x0) {
     seek(0);
   }
 
@@ -44,6 +44,7 @@ class SpeedRoll final : public Motion {
     return D;
   }
   Roll* roll() override { return &roll_; }
+  unsigned long evaluations() const override { return roll_.evaluations(); }
 
  private:
   Roll roll_;
@@ -84,7 +85,7 @@ std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
     return std::make_unique<IntegratedRoll>(scene, method.stepper, rtol, most_steps);
   if (method.kind == Method::closed && !has_closed_form(scene))
     fail("the closed form is that of a law a v^b with A = 1 on a level mat: take the method exact");
-  return std::make_unique<SpeedRoll>(scene);
+  return std::make_unique<SpeedRoll>(scene, rtol);
 }
 
 }  // namespace rolling

@@ -57,17 +57,19 @@ class Motion {
 /// differential equation, by this stepper.
 struct Method {
   enum { closed, exact, solver } kind;
-  Stepper stepper = Stepper::rk8pd;
+  Stepper stepper = gsl_odeiv2_step_rk8pd;
 };
 
 /// The fastest method that is exact for the scene: closed for a v^b with A = 1 on a level mat; with
 /// memory, where neither exists, the solver that suits the stiffness; else exact.
 Method best_method(const Scene&);
 
-/// Constructs the motion at t = 0. rtol and most_steps concern solvers: the tolerance of a step,
-/// and the largest number of steps from one seek() to the next. Throws Error if x0 is not finite,
-/// as check_roll does, and if the method does not suit the scene. Where D grows to R, the law loses
-/// its meaning: later times throw Error, and stop_time() is infinite.
+inline constexpr double finest = 1e-12;  ///< the tolerance of a roll on a road
+
+/// Constructs the motion at t = 0. rtol is the tolerance of a step of a solver, or on a road;
+/// most_steps the largest number of steps of a solver from one seek() to the next. Throws Error if
+/// x0 is not finite, as check_roll does, and if the method does not suit the scene. Where D grows
+/// to R, the law loses its meaning: later times throw Error, and stop_time() is infinite.
 std::unique_ptr<Motion> start(const Scene&, Method, double rtol,
                               unsigned long most_steps = 1'000'000);
 
@@ -77,15 +79,16 @@ struct Reference {
   double stop;  ///< infinity if the body does not stop
 };
 
-/// The reference at n evenly spaced times from 0 to 1.2 times the stop, or to `end` [s] if the stop
-/// is later than 1000 times `end`. With memory the times end at the stop, because rest is declared
-/// there, whereas the solution of the equations continues to oscillate. The speeds are those of the
-/// best method; with memory that is the solver with a relative tolerance of 1e-13.
+/// The reference at n evenly spaced times from 0 to 1.2 times the stop, or to `end` [s] on a road
+/// and if the stop is later than 1000 times `end`. With memory the times end at the stop, because
+/// rest is declared there, whereas the solution of the equations continues to oscillate. The speeds
+/// are those of the best method; with memory that is the solver with a tolerance of 1e-13, on a
+/// road one of `finest`.
 Reference reference(const Scene&, std::size_t n, double end);
 
 struct Measured {
-  double v_error = 0;     ///< largest |v - reference|, over the first speed
-  double stop_error = 0;  ///< relative; 0 if there is no stop
+  double v_error = 0;     ///< largest |v - reference|, over the highest speed
+  double stop_error = 0;  ///< relative; 0 if there is no stop, or one at t = 0
   unsigned long evaluations = 0;
   double seconds = 0;   ///< of the processor per sample, with the start
   std::string failure;  ///< message of the Error that ended the measurement, or empty

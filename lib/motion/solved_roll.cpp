@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -12,82 +13,113 @@
 
 namespace rolling {
 
+SolvedRoll::SolvedRoll(const Scene& scene, Stepper stepper, unsigned long most_steps)
+    : body_(scene.body), geometry_(scene.geometry), v0_(scene.v0), stepper_(stepper),
+      most_steps_(most_steps) {
+  if (v0_ > 0 && v0_ < least_speed)
+    fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0_,
+         least_speed);
+}
+
+void SolvedRoll::begin(Tolerance tolerance, std::vector<double> y) {
+  tolerance_ = std::move(tolerance);
+  first_ = std::move(y);
+  course_.emplace(from_start());
+}
+
+double SolvedRoll::stop_time() {
+  if (!stop_time_) {
+    Course course = from_start();
+    advance(course, INFINITY, most_steps_);
+    stop_time_ = course.ode.time();
+  }
+  return *stop_time_;
+}
+
+void SolvedRoll::seek(double t) {
+  if (at_rest_) return;
+  // The first value that stop_time() has returned remains valid: within the error of the solver it
+  // depends on the steps.
+  const double end = turns_ ? INFINITY : stop_time_.value_or(INFINITY);
+  const bool stops = advance(*course_, std::min(t, end), most_steps_);
+  at_rest_ = !turns_ && (stops || t >= end);
+  if (!stops) return;
+  if (!stop_time_) stop_time_ = course_->ode.time();
+  if (turns_) advance(*course_, t, most_steps_);
+}
+
+double SolvedRoll::acceleration() {
+  const double D = shift();
+  return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, D);
+}
+
 namespace {
 
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-constexpr double last_part =
-    1e-10;  // of v0 and of the time; in a smaller one, rounding of t exceeds a step
-
-double unit_of_speed(const Scene& s) { return s.v0 > 0 ? s.v0 : std::sqrt(s.body.g * s.body.R); }
-
-OdeSystem equations_of_law(const Body& body, Geometry geometry, const Law& law, double floor) {
-  // Below the floor D is constant, so that v crosses it: nothing attracts the solver to v = 0.
-  const auto shift = [law, floor](double v) {
-    return law(std::copysign(std::max(std::abs(v), floor), v));
-  };
-  const auto derivative = [body, geometry, shift](const double* y, double* dydt) {
-    dydt[0] = y[1];
-    dydt[1] = trial_acceleration(body, geometry, shift(y[1]));
-  };
-  const auto jacobian = [body, geometry, shift, law, floor](const double* y, double* dfdy) {
-    const double v = std::abs(y[1]);
-    dfdy[0] = 0, dfdy[1] = 1, dfdy[2] = 0;
-    dfdy[3] = v <= floor
-                  ? 0
-                  : trial_acceleration_slope(body, geometry, shift(y[1])) * law.at(v).by_log_v / v;
-  };
-  const auto longest = [body, geometry, shift, floor](const double* y) {
-    const double v = std::max(std::abs(y[1]), floor);
-    return v > 0 ? v / (2 * std::abs(trial_acceleration(body, geometry, shift(y[1])))) : INFINITY;
-  };
-  return {derivative, jacobian, longest};
-}
+// Of v0 and of the time: in a smaller part, the rounding of t exceeds a step.
+constexpr double last_part = 1e-10;
 
 }  // namespace
-
-IntegratedRoll::End IntegratedRoll::end_of(const Scene& s) {
-  Roll roll(s.body, s.geometry, s.law, s.v0);
-  if (!std::isfinite(roll.stop_time())) return {0, false, roll.turns(), roll.way_on()};
-  const auto power = s.law.power();
-  const double b = power ? std::min(power->b, 0.0) : 0, rest = roll.rest_speed(),
-               floor = std::pow(last_part, 1 / (1 - b)) * unit_of_speed(s);
-  return {std::max(floor, rest), rest > floor, roll.turns(), roll.way_on()};
-}
 
 // From v0 = 0 the way back begins at once. The sign of a v that is 0 tells its direction.
 IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
                                unsigned long most_steps)
-    : SolvedRoll(
-          s, most_steps,
-          [=, end = end_of(s)] {
-  return Integrator(equations_of_law(s.body, s.geometry, s.law.in_wind(s.body.wind), end.floor),
-                    stepper,
-                    {rounding, rtol * last_part, rtol, {unit_of_speed(s), unit_of_speed(s)}},
-                    {s.x0, s.v0 > 0 ? s.v0 : std::copysign(0, end.way_on)});
-          }),
-law_(s.law.in_wind(s.body.wind)), end_(end_of(s)) {
-  turns_ = end_.turns, at_rest_ = s.v0 == 0 && !turns_;
-  if (s.v0 == 0) stop_time_ = 0;
-  else if (end_.floor == 0) stop_time_ = INFINITY;
+    : SolvedRoll(s, stepper, most_steps), law_(s.law.in_wind(s.body.wind)) {
+  Roll roll(s.body, s.geometry, s.law, s.v0);
+  const double unit = v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R);
+  if (std::isfinite(roll.stop_time())) {
+    const auto power = law_.power();
+    floor_ = std::pow(last_part, 1 / (1 - std::min(power ? power->b : 0, 0.0))) * unit;
+    creeps_ = roll.rest_speed() > floor_;
+    if (creeps_) floor_ = roll.rest_speed();
+  }
+  turns_ = roll.turns();
+  way_on_ = roll.way_on();
+  at_rest_ = v0_ == 0 && !turns_;
+  if (v0_ == 0) stop_time_ = 0;
+  else if (floor_ == 0) stop_time_ = INFINITY;
+  begin({rounding, rtol * last_part, rtol, {unit, unit}},
+        {s.x0, v0_ > 0 ? v0_ : std::copysign(0, way_on_)});
+}
+
+/// Below the floor D is constant, so that v crosses it: nothing attracts the solver to v = 0.
+double IntegratedRoll::floored(double v) const {
+  return law_(std::copysign(std::max(std::abs(v), floor_), v));
+}
+
+void IntegratedRoll::derivative(const double* y, double* dydt) const {
+  dydt[0] = y[1];
+  dydt[1] = accelerate(body_, geometry_, floored(y[1])).a;
+}
+
+void IntegratedRoll::jacobian(const double* y, double* dfdy) const {
+  const double v = std::abs(y[1]);
+  dfdy[0] = dfdy[2] = dfdy[3] = 0;
+  dfdy[1] = 1;
+  if (v > floor_)
+    dfdy[3] = accelerate(body_, geometry_, floored(y[1])).by_D * law_.at(v).by_log_v / v;
+}
+
+double IntegratedRoll::longest_step(const double* y) const {
+  const double v = std::max(std::abs(y[1]), floor_);
+  if (v == 0) return INFINITY;
+  return v / (2 * std::abs(accelerate(body_, geometry_, floored(y[1])).a));
 }
 
 bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
   Integrator& ode = course.ode;
-  const bool stops = ode.advance(
-      t,
-      [&](const std::vector<double>& y) {
-    const double v = y[1];
-    if (geometry_ == Geometry::exact && std::abs(law_(v)) >= body_.R)
+  const bool stops = ode.advance(t, steps, [&](const std::vector<double>& y) {
+    if (geometry_ == Geometry::exact && std::abs(law_(y[1])) >= body_.R)
       fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
-    law_.check_speed(v);
-    return v0_ > 0 ? v - end_.floor : 1;
-      },
-      steps);
+    law_.check_speed(y[1]);
+    return v0_ > 0 ? y[1] - floor_ : 1;
+  });
   if (!stops) return false;
-  const double v = ode.state()[1], D = law_(v), a = trial_acceleration(body_, geometry_, D),
-               q = law_.at(v).by_log_v * trial_acceleration_slope(body_, geometry_, D) / a;
-  ode.restart(ode.time() + (end_.creeps ? 0 : v / ((1 - q) * -a)),
-              {ode.state()[0], std::copysign(0, end_.way_on)});
+  const double v = ode.state()[1];
+  const Acceleration now = accelerate(body_, geometry_, law_(v));
+  const double exponent = law_.at(v).by_log_v * now.by_D / now.a;
+  const double left = creeps_ ? 0 : v / ((1 - exponent) * -now.a);
+  ode.restart(ode.time() + left, {ode.state()[0], std::copysign(0, way_on_)});
   return true;
 }
 
@@ -104,38 +136,6 @@ constexpr double rest_fraction = 1e-3;  // of v0
 // and the extrapolation of bsimp .02 s, for an error of 1e-9.
 constexpr double stiff = 3e4, very_stiff = 2e7;
 
-// y = (x, v, z).
-OdeSystem equations(const Scene& scene, PowerLaw law) {
-  const Body body = scene.body;
-  const Geometry geometry = scene.geometry;
-  const Bulge bulge = scene.bulge;
-  const auto derivative = [=](const double* y, double* dydt) {
-    const double v = y[1], z = y[2];
-    dydt[0] = v;
-    dydt[2] = std::abs(v) * (law(v) - z) / bulge.length;
-    dydt[1] = trial_acceleration(body, geometry, z + bulge.damping * dydt[2]);
-  };
-  const auto jacobian = [=](const double* y, double* dfdy) {
-    const double v = y[1], z = y[2], speed = std::abs(v);
-    const double dv_dD = trial_acceleration_slope(
-        body, geometry, z + bulge.damping * speed * (law(v) - z) / bulge.length);
-    const double dz_dv =
-                     ((1 + law.b) * std::abs(law(v)) - std::copysign(1.0, v) * z) / bulge.length,
-                 dz_dz = -speed / bulge.length;
-    const double rows[9] = {
-        0, 1,     0,    0, dv_dD * bulge.damping * dz_dv, dv_dD * (1 + bulge.damping * dz_dz),
-        0, dz_dv, dz_dz};
-    std::copy(rows, rows + 9, dfdy);
-  };
-  // Where the error of a step vanishes, as under a constant shift, nothing else limits it.
-  const auto longest = [derivative, v0 = scene.v0](const double* y) {
-    double dydt[3];
-    derivative(y, dydt);
-    return (v0 + std::abs(y[1])) / std::abs(dydt[1]);
-  };
-  return {derivative, jacobian, longest};
-}
-
 PowerLaw law_of(const Scene& scene) {
   const auto law = scene.law.power();
   if (!law || law->b < 0)
@@ -149,40 +149,62 @@ Stepper memory_stepper(const Scene& scene) {
   // With z near the law, the shift z + damping z' of a body that slows down is smaller than z, by
   // the factor 1 + damping c dD/dv.
   const auto [D, by_log_v] = scene.law.at(scene.v0);
-  const double damping = scene.bulge.damping,
-               q = std::abs(trial_acceleration(scene.body, Geometry::approximate, D)),
-               slowing = scene.v0 / q + damping * by_log_v / D,
-               following = scene.bulge.length / (scene.v0 + damping * q);
-  if (slowing > very_stiff * following) return Stepper::bsimp;
-  return slowing > stiff * following ? Stepper::rk4imp : Stepper::rk8pd;
+  const double damping = scene.bulge.damping;
+  const double q = std::abs(accelerate(scene.body, Geometry::approximate, D).a);
+  const double slowing = scene.v0 / q + damping * by_log_v / D;
+  const double following = scene.bulge.length / (scene.v0 + damping * q);
+  if (slowing > very_stiff * following) return gsl_odeiv2_step_bsimp;
+  return slowing > stiff * following ? gsl_odeiv2_step_rk4imp : gsl_odeiv2_step_rk8pd;
 }
 
 // The unit of z is the largest shift on a level mat or, on a slope, one that balances gravity if
 // that is larger; it is above 0.
 MemoryRoll::MemoryRoll(const Scene& s, Stepper stepper, double rtol, unsigned long most_steps)
-    : SolvedRoll(
-          s, most_steps,
-          [=, law = law_of(s), D0 = s.law(s.v0)] {
-  return Integrator(
-      equations(s, law), stepper,
-      {rtol,
-       1e-3 * rtol,
-       0,
-       {s.bulge.length, s.v0, std::max({D0, s.body.R * std::abs(s.body.slope), least_speed})}},
-      {s.x0, s.v0, D0});
-          }),
-law_(law_of(s)), bulge_(s.bulge) {
+    : SolvedRoll(s, stepper, most_steps), law_(law_of(s)), bulge_(s.bulge) {
   at_rest_ = v0_ == 0;
   if (at_rest_) stop_time_ = 0;
   else if (law_.b >= 2 || body_.slope != 0) stop_time_ = INFINITY;
+  const double D = law_(v0_);
+  const double unit = std::max({D, body_.R * std::abs(body_.slope), least_speed});
+  begin({rtol, 1e-3 * rtol, 0, {bulge_.length, v0_, unit}}, {s.x0, v0_, D});
+}
+
+void MemoryRoll::derivative(const double* y, double* dydt) const {
+  const double v = y[1];
+  const double z = y[2];
+  dydt[0] = v;
+  dydt[2] = std::abs(v) * (law_(v) - z) / bulge_.length;
+  dydt[1] = accelerate(body_, geometry_, z + bulge_.damping * dydt[2]).a;
+}
+
+void MemoryRoll::jacobian(const double* y, double* dfdy) const {
+  const double v = y[1];
+  const double z = y[2];
+  const double speed = std::abs(v);
+  const double dz = speed * (law_(v) - z) / bulge_.length;
+  const double dv_dD = accelerate(body_, geometry_, z + bulge_.damping * dz).by_D;
+  const double dz_dv =
+      ((1 + law_.b) * std::abs(law_(v)) - std::copysign(1.0, v) * z) / bulge_.length;
+  const double dz_dz = -speed / bulge_.length;
+  const double by_v = dv_dD * bulge_.damping * dz_dv;
+  const double by_z = dv_dD * (1 + bulge_.damping * dz_dz);
+  const double rows[9] = {0, 1, 0, 0, by_v, by_z, 0, dz_dv, dz_dz};
+  std::copy(rows, rows + 9, dfdy);
+}
+
+/// Where the error of a step vanishes, as under a constant shift, nothing else limits it.
+double MemoryRoll::longest_step(const double* y) const {
+  double dydt[3];
+  derivative(y, dydt);
+  return (v0_ + std::abs(y[1])) / std::abs(dydt[1]);
 }
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {
-  const double z = y[2], c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R),
-               power = 2 + law_.b;
-  return std::pow(
-      std::pow(std::abs(y[1]), power) + power * bulge_.length * c * z * z / (2 * law_.a),
-      1 / power);
+  const double z = y[2];
+  const double c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R);
+  const double power = 2 + law_.b;
+  const double of_bulge = power * bulge_.length * c * z * z / (2 * law_.a);
+  return std::pow(std::pow(std::abs(y[1]), power) + of_bulge, 1 / power);
 }
 
 bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
@@ -190,14 +212,12 @@ bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
   // The right-hand side has a kink at v = 0; therefore each zero is located, and the integration
   // restarts from v = 0 exactly. The bulge pushes the body away from there, against z.
   for (;;) {
-    const double v = ode.state()[1], way = v > 0 || (v == 0 && ode.state()[2] < 0) ? 1 : -1;
-    if (!ode.advance(
-            t,
-            [&, creep = creep](const std::vector<double>& y) {
+    const double v = ode.state()[1];
+    const double way = v > 0 || (v == 0 && ode.state()[2] < 0) ? 1 : -1;
+    const auto event = [&, creep = creep](const std::vector<double>& y) {
       return std::min(way * y[1], creep > 0 ? fastest(y) - creep : INFINITY);
-            },
-            steps))
-      return false;
+    };
+    if (!ode.advance(t, steps, event)) return false;
     std::vector<double> y = ode.state();
     const double bound = fastest(y);
     if (creep > 0 && bound - creep <= way * y[1]) return true;
@@ -210,7 +230,8 @@ bool MemoryRoll::advance(Course& course, double t, unsigned long steps) {
 }
 
 double MemoryRoll::shift() {
-  const double v = velocity(), z = course_.ode.state()[2];
+  const double v = velocity();
+  const double z = course_->ode.state()[2];
   return at_rest_ ? 0 : z + bulge_.damping * std::abs(v) * (law_(v) - z) / bulge_.length;
 }
 

@@ -4,14 +4,9 @@
 // neither exists.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <optional>
-#include <utility>
+#include <vector>
 
-#include "base/error.h"
-#include "contact/contact.h"
 #include "motion/scene.h"
 #include "ode/integrator.h"
 
@@ -21,34 +16,16 @@ namespace rolling {
 /// and D are 0. There are two courses of the same equations: seek() advances one of them; a second
 /// one determines the time of the stop when it is requested, because seek() only goes forward.
 /// seek() and stop_time() throw the errors of Integrator, also after more than most_steps steps.
-class SolvedRoll : public Motion {
+class SolvedRoll : public Motion, protected OdeSystem {
  public:
-  double stop_time() override {
-    if (!stop_time_) {
-      Course course{from_start_()};
-      advance(course, INFINITY, most_steps_);
-      stop_time_ = course.ode.time();
-    }
-    return *stop_time_;
-  }
-  void seek(double t) override {
-    if (at_rest_) return;
-    // The first value that stop_time() has returned remains valid: within the error of the solver
-    // it depends on the steps.
-    const double end = turns_ ? INFINITY : stop_time_.value_or(INFINITY);
-    const bool stops = advance(course_, std::min(t, end), most_steps_);
-    at_rest_ = !turns_ && (stops || t >= end);
-    if (!stops) return;
-    if (!stop_time_) stop_time_ = course_.ode.time();
-    if (turns_) advance(course_, t, most_steps_);
-  }
-  double position() override { return course_.ode.state()[0]; }
-  double velocity() override { return at_rest_ ? 0 : course_.ode.state()[1]; }
-  double acceleration() override {
-    const double D = shift();
-    return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, D);
-  }
-  unsigned long evaluations() const override { return course_.ode.evaluations(); }
+  SolvedRoll(const SolvedRoll&) = delete;  // the courses refer to it
+  SolvedRoll& operator=(const SolvedRoll&) = delete;
+  double stop_time() override;
+  void seek(double t) override;
+  double position() override { return course_->ode.state()[0]; }
+  double velocity() override { return at_rest_ ? 0 : course_->ode.state()[1]; }
+  double acceleration() override;
+  unsigned long evaluations() const override { return course_->ode.evaluations(); }
 
  protected:
   struct Course {
@@ -59,24 +36,26 @@ class SolvedRoll : public Motion {
   /// A part of it, times a tolerance, is still a number with all digits.
   static constexpr double least_speed = 1e-280;
   /// Throws Error for a v0 that is positive and below least_speed.
-  SolvedRoll(const Scene& scene, unsigned long most_steps, std::function<Integrator()> from_start)
-      : body_(scene.body), geometry_(scene.geometry), v0_(scene.v0), most_steps_(most_steps),
-        from_start_(std::move(from_start)), course_{from_start_()} {
-    if (v0_ > 0 && v0_ < least_speed)
-      fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0_,
-           least_speed);
-  }
+  SolvedRoll(const Scene&, Stepper, unsigned long most_steps);
+  /// The constructor ends with it: the tolerance of a step, and the state at t = 0.
+  void begin(Tolerance, std::vector<double> y);
   /// Integrates to t, or to the rest or the turning point if it is earlier: then it returns true.
   virtual bool advance(Course&, double t, unsigned long steps) = 0;
 
   Body body_;
   Geometry geometry_;
   double v0_;
-  unsigned long most_steps_;
-  std::function<Integrator()> from_start_;
   bool at_rest_ = false, turns_ = false;
   std::optional<double> stop_time_;  // 0 and infinity are known from the beginning
-  Course course_;                    // that seek() advances
+  std::optional<Course> course_;     // that seek() advances
+
+ private:
+  Course from_start() const { return {Integrator(*this, stepper_, tolerance_, first_)}; }
+
+  Stepper stepper_;
+  unsigned long most_steps_;
+  Tolerance tolerance_{};
+  std::vector<double> first_;
 };
 
 /// The roll under any law D(v).
@@ -100,18 +79,16 @@ class IntegratedRoll final : public SolvedRoll {
   double shift() override;
 
  private:
-  /// How the first part of the roll ends.
-  struct End {
-    double floor;  // 0: never
-    bool creeps;   // at the floor, which counts as rest
-    bool turns;
-    double way_on;  // then
-  };
-  static End end_of(const Scene&);
+  double floored(double v) const;  // D
+  void derivative(const double* y, double* dydt) const override;
+  void jacobian(const double* y, double* dfdy) const override;
+  double longest_step(const double* y) const override;
   bool advance(Course&, double t, unsigned long steps) override;
 
   Law law_;
-  End end_;
+  double floor_ = 0;     // 0: v does not fall to one
+  bool creeps_ = false;  // at the floor, which counts as rest
+  double way_on_;        // behind a turning point
 };
 
 /// The solver for this stiffness. With q = c D(v0), the bulge and v follow each other within the
@@ -140,6 +117,9 @@ class MemoryRoll final : public SolvedRoll {
 
  private:
   double fastest(const std::vector<double>& y) const;  // the bound of |v| from this state on
+  void derivative(const double* y, double* dydt) const override;
+  void jacobian(const double* y, double* dfdy) const override;
+  double longest_step(const double* y) const override;
   bool advance(Course&, double t, unsigned long steps) override;
 
   PowerLaw law_;

@@ -2,10 +2,8 @@
 #include "ode/integrator.h"
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,65 +12,36 @@
 
 namespace rolling {
 
-struct Integrator::Problem {
-  OdeSystem system;
-  gsl_odeiv2_system gsl{};
-  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver{nullptr,
-                                                                          gsl_odeiv2_driver_free};
-  unsigned long evaluations = 0;
-
-  static int derivative(double, const double* y, double* dydt, void* self) {
-    auto& p = *static_cast<Problem*>(self);
-    ++p.evaluations;
-    p.system.derivative(y, dydt);
-    // A step to a state without a finite derivative is halved. GSL would accept it whatever its
-    // error: the scale of the error is then NaN.
-    const bool finite = std::all_of(dydt, dydt + p.gsl.dimension,
-                                    [](double slope) { return std::isfinite(slope); });
-    return finite ? GSL_SUCCESS : GSL_FAILURE;
-  }
-
-  static int jacobian(double, const double* y, double* dfdy, double* dfdt, void* self) {
-    auto& p = *static_cast<Problem*>(self);
-    p.system.jacobian(y, dfdy);
-    std::fill_n(dfdt, p.gsl.dimension, 0.0);
-    return GSL_SUCCESS;
-  }
-};
-
-namespace {
-
-const gsl_odeiv2_step_type* gsl_type(Stepper stepper) {
-  const gsl_odeiv2_step_type* const types[steppers] = {
-      // in the order of Stepper
-      gsl_odeiv2_step_rk2,    gsl_odeiv2_step_rk4,    gsl_odeiv2_step_rkf45,
-      gsl_odeiv2_step_rkck,   gsl_odeiv2_step_rk8pd,  gsl_odeiv2_step_msadams,
-      gsl_odeiv2_step_rk1imp, gsl_odeiv2_step_rk2imp, gsl_odeiv2_step_rk4imp,
-      gsl_odeiv2_step_bsimp,  gsl_odeiv2_step_msbdf};
-  return types[static_cast<std::size_t>(stepper)];
-}
-
-}  // namespace
-
-const char* name_of(Stepper stepper) { return gsl_type(stepper)->name; }
-
-Integrator::Integrator(OdeSystem system, Stepper stepper, const Tolerance& tolerance,
+Integrator::Integrator(const OdeSystem& system, Stepper stepper, const Tolerance& tolerance,
                        std::vector<double> y)
-    : problem_(std::make_shared<Problem>()), y_(std::move(y)) {
-  problem_->system = std::move(system);
+    : calls_(new Calls{system}), driver_(nullptr, gsl_odeiv2_driver_free), y_(std::move(y)) {
   std::vector<double> rate(y_.size());
-  problem_->system.derivative(y_.data(), rate.data());
+  system.derivative(y_.data(), rate.data());
   for (std::size_t i = 0; i < y_.size(); ++i)
     if (const double part = 1e-3 * std::abs(y_[i] / rate[i]); part > 0) h_ = std::min(h_, part);
-  problem_->gsl = {Problem::derivative, Problem::jacobian, y_.size(), problem_.get()};
+  const auto derivative = [](double, const double* at, double* dydt, void* self) {
+    Calls& calls = *static_cast<Calls*>(self);
+    ++calls.derivatives;
+    calls.system.derivative(at, dydt);
+    // A step to a state without a finite derivative is halved. GSL would accept it whatever its
+    // error: the scale of the error is then NaN.
+    const bool finite = std::all_of(dydt, dydt + calls.gsl.dimension,
+                                    [](double slope) { return std::isfinite(slope); });
+    return static_cast<int>(finite ? GSL_SUCCESS : GSL_FAILURE);
+  };
+  const auto jacobian = [](double, const double* at, double* dfdy, double* dfdt, void* self) {
+    const Calls& calls = *static_cast<Calls*>(self);
+    calls.system.jacobian(at, dfdy);
+    std::fill_n(dfdt, calls.gsl.dimension, 0.0);
+    return static_cast<int>(GSL_SUCCESS);
+  };
+  calls_->gsl = {derivative, jacobian, y_.size(), calls_.get()};
   silence_gsl();
-  problem_->driver = own(gsl_odeiv2_driver_alloc_scaled_new(
-                             &problem_->gsl, gsl_type(stepper), h_, tolerance.of_unit, 1,
-                             tolerance.of_value, tolerance.of_change, tolerance.units.data()),
-                         gsl_odeiv2_driver_free);
+  driver_ = own(gsl_odeiv2_driver_alloc_scaled_new(&calls_->gsl, stepper, h_, tolerance.of_unit, 1,
+                                                   tolerance.of_value, tolerance.of_change,
+                                                   tolerance.units.data()),
+                gsl_odeiv2_driver_free);
 }
-
-unsigned long Integrator::evaluations() const { return problem_->evaluations; }
 
 void Integrator::step(double t, unsigned long& steps) {
   if (steps == 0)
@@ -82,15 +51,18 @@ void Integrator::step(double t, unsigned long& steps) {
         t_);
   --steps;
   const double before = t_;
-  const gsl_odeiv2_driver& driver = *problem_->driver;
-  h_ = std::min(h_, problem_->system.longest_step(y_.data()));
-  const int status =
-      gsl_odeiv2_evolve_apply(driver.e, driver.c, driver.s, &problem_->gsl, &t_, t, &h_, y_.data());
+  h_ = std::min(h_, calls_->system.longest_step(y_.data()));
+  const int status = gsl_odeiv2_evolve_apply(driver_->e, driver_->c, driver_->s, &calls_->gsl, &t_,
+                                             t, &h_, y_.data());
   if (status != GSL_SUCCESS || t_ == before)
     fail("the integration fails at t = {:.6g} s: no step is short enough", t_);
 }
 
-bool Integrator::advance(double t, const Event& event, unsigned long& steps) {
+bool Integrator::advance(double t, unsigned long& steps, const Event& event) {
+  if (!event) {
+    while (t_ < t) step(t, steps);
+    return false;
+  }
   double before = event(y_);
   while (t_ < t) {
     const double t_before = t_;
@@ -134,8 +106,8 @@ void Integrator::locate(double t_before, std::vector<double> y_before, const Eve
 
 void Integrator::restart(double t, std::vector<double> y) {
   t_ = t, y_ = std::move(y);
-  gsl_odeiv2_evolve_reset(problem_->driver->e);
-  gsl_odeiv2_step_reset(problem_->driver->s);
+  gsl_odeiv2_evolve_reset(driver_->e);
+  gsl_odeiv2_step_reset(driver_->s);
 }
 
 }  // namespace rolling

@@ -85,7 +85,7 @@ class Cvode final : public Motion {
     } else {
       D = law(std::max(v, me.floor_));
     }
-    NV_Ith_S(dydt, 0) = trial_acceleration(body, geometry, D);
+    NV_Ith_S(dydt, 0) = accelerate(body, geometry, D).a;
     return 0;
   }
   static int above_floor(double, N_Vector y, double* g, void* self) {

@@ -6,9 +6,14 @@ A row for each scene: the error of v where the body has lost half of its speed, 
 of the stop, as a part of its time, the seconds that the tool took, or its refusal. The reference is
 the time as an integral over the speed (mpmath), t(v) = int (K + A) R/(g (D cos + A R sin)) dv. With
 a memory of length L both are the distance from the law without one, to which they tend with L; the
-ringing before rest takes a time that goes as the square root of L. Needs python3-mpmath."""
+ringing before rest takes a time that goes as the square root of L. On roads the rows are those of
+`simulate --report`: a tolerance each, against 1e-12, v as a part of the highest speed, and the
+seconds are those of a row of the motion. Needs python3-mpmath."""
+import math
+import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 from mpmath import mp, mpf
@@ -69,6 +74,17 @@ def timed(name, options):
     print(f"{name}\t\t\t{seconds:.2f}\t{refused}", flush=True)
 
 
+def road(name, heights, coefficients, options):
+    """heights: of x and h; coefficients: of a law, by their columns."""
+    with tempfile.TemporaryDirectory() as folder:
+        table, law = pathlib.Path(folder, "heights"), pathlib.Path(folder, "law")
+        table.write_text("x[m]\th[m]\n" + "".join(f"{x!r}\t{h!r}\n" for x, h in heights))
+        law.write_text("\t".join(coefficients) + "\n" + "\t".join(map(repr, coefficients.values())) + "\n")
+        rows, _, refused = run(["--height", str(table), "--law", str(law), "--report", *options])
+    for _, tolerance, v, stop, _, seconds in rows:
+        print(f"{name}, tolerance {tolerance}\t{float(v):.1e}\t{float(stop):.1e}\t{float(seconds):.1e}\t{refused}", flush=True)
+
+
 def main():
     short = len(sys.argv) > 1
     print("# scene\tv\tstop\tseconds\trefusal")
@@ -90,6 +106,11 @@ def main():
         rows, seconds, refused = run(["-K", "0.5", "-R", "0.04", "-a", "1e-3", "-b", "0", "--v0", "0.5", "--slope",
                                       repr(S), "--until", "1000", "--dt", "1000", "--columns", "v"])
         print(f"turning point, {name}: v = {float(rows[-1][0]):.1e} m/s\t\t\t{seconds:.2f}\t{refused}")
+    road("hills", [(x, math.sin(2 * math.pi * x / 800)) for x in range(-60, 2500, 10)],
+         {"d0[m]": 3.058103975535168e-3, "d2[s^2/m]": 8.154943934760448e-6},
+         ["-K", "0.04", "-R", "0.3", "--v0", "33", "--until", "100"])
+    road("bowl", [(i / 100, 1.14 * math.sin(i / 114) ** 2) for i in range(-30, 31)],
+         {"d0[m]": 2.54e-5}, ["-K", "0.4", "-R", "0.0127", "--v0", "0", "--x0", "0.15", "--until", "9"])
     if not short:
         timed("1e7 rows", ["-K", "0.5", "-R", "0.04", "-a", "1e-9", "-b", "0", "--v0", "0.5", "--until", "1e5", "--dt", "0.01",
                            "--columns", "v"])

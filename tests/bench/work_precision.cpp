@@ -74,11 +74,11 @@ void row(std::FILE* file, const std::string& who, const std::string& method, dou
 
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) return 2;
-  const std::vector<std::pair<std::string, Stepper>> ours = {{"rkf45", Stepper::rkf45},
-                                                             {"rk8pd", Stepper::rk8pd},
-                                                             {"rk4imp", Stepper::rk4imp},
-                                                             {"bsimp", Stepper::bsimp},
-                                                             {"msbdf", Stepper::msbdf}};
+  const std::vector<std::pair<std::string, Stepper>> ours = {{"rkf45", gsl_odeiv2_step_rkf45},
+                                                             {"rk8pd", gsl_odeiv2_step_rk8pd},
+                                                             {"rk4imp", gsl_odeiv2_step_rk4imp},
+                                                             {"bsimp", gsl_odeiv2_step_bsimp},
+                                                             {"msbdf", gsl_odeiv2_step_msbdf}};
   const std::vector<std::pair<std::string, const gsl_odeiv2_step_type*>> bare = {
       {"rkf45", gsl_odeiv2_step_rkf45},
       {"rk8pd", gsl_odeiv2_step_rk8pd},

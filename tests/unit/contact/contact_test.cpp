@@ -57,7 +57,7 @@ TEST_CASE("contact: the acceleration is Eq. 12, on slopes too", "[contact]") {
       const double scale = c.g * (std::abs(D) / c.R + std::abs(c.slope)) / (c.K + A);
       REQUIRE(std::abs(a - static_cast<double>(acceleration(c, geometry, D))) <= 8 * eps * scale);
       if (A > 0.01)  // near R a trial step need not be exact
-        REQUIRE(std::abs(trial_acceleration(c, geometry, D) - a) <= 1e-12 * std::abs(a) + 1e-14);
+        REQUIRE(std::abs(accelerate(c, geometry, D).a - a) <= 1e-12 * std::abs(a) + 1e-14);
       if (geometry == Geometry::exact) REQUIRE(std::abs(A - arm(c, geometry, D)) <= 4 * eps * A);
       else REQUIRE(A == 1);
       if (c.slope == 0) {
@@ -77,7 +77,7 @@ TEST_CASE("contact: the derivative that a solver takes is that of Eq. 12", "[con
       const long double h = 1e-6L * c.R;
       const auto slope = static_cast<double>(
           (acceleration(c, geometry, D + h) - acceleration(c, geometry, D - h)) / (2 * h));
-      REQUIRE(std::abs(trial_acceleration_slope(c, geometry, D) - slope) <=
+      REQUIRE(std::abs(accelerate(c, geometry, D).by_D - slope) <=
               1e-8 * (std::abs(slope) + c.g / c.R));
     }
   }

@@ -49,10 +49,10 @@ class Extremes {
   }
 
   Method method(const Scene& roll) {
-    constexpr Stepper steppers[] = {Stepper::rk2,    Stepper::rkf45,  Stepper::rk8pd,
-                                    Stepper::rk2imp, Stepper::rk4imp, Stepper::msbdf};
+    const Stepper few[] = {gsl_odeiv2_step_rk2,    gsl_odeiv2_step_rkf45,  gsl_odeiv2_step_rk8pd,
+                           gsl_odeiv2_step_rk2imp, gsl_odeiv2_step_rk4imp, gsl_odeiv2_step_msbdf};
     if (one_in(2)) return best_method(roll);
-    return {Method::solver, steppers[std::uniform_int_distribution(0, 5)(random_)]};
+    return {Method::solver, few[std::uniform_int_distribution(0, 5)(random_)]};
   }
 
  private:

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <vector>
 
 using namespace rolling;
@@ -152,6 +153,36 @@ TEST_CASE("road: without a loss the energy stays", "[road]") {
     const Roll::Point p = roll.at(t);
     const double fall = 1.1 * (ball.road->at(0.2).h - ball.road->at(0.2 + p.x).h);
     CHECK(0.7 * p.v * p.v == Approx(9.81 * fall).epsilon(1e-9).margin(1e-10));
+  }
+}
+
+// A segment must not be longer than the dv/dt with which it was planned: h'' changes by much from
+// point to point.
+TEST_CASE("road: a body swings in rough bowls", "[road]") {
+  std::mt19937 random(1);
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(random);
+  };
+  for (int i = 0; i < 300; ++i) {
+    std::vector<double> x;
+    std::vector<double> h;
+    for (double place = -0.3; place < 0.3; place += 0.02 * uniform(0.3, 1.7)) {
+      x.push_back(place);
+      h.push_back(place * place / 1.14 + 5e-4 * std::normal_distribution()(random));
+    }
+    const Road rough(x, h);
+    const Body ball{.m = 1, .R = 0.0127, .K = 0.4, .road = &rough};
+    const double x0 = uniform(-0.1, 0.1);
+    RoadRoll roll(ball, Geometry::approximate, PowerLaw{5e-5, 0.2}, 0.1, x0);
+    CAPTURE(i);
+    double before = INFINITY;
+    for (const double t : {0.0, 2.0, 4.0}) {
+      const Roll::Point p = roll.at(t);
+      const double energy = 0.7 * p.v * p.v + 9.81 * rough.at(x0 + p.x).h;
+      CHECK(energy < before);
+      before = energy;
+    }
+    CHECK(roll.evaluations() < 50'000);
   }
 }
 

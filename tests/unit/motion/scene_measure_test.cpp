@@ -30,8 +30,8 @@ TEST_CASE(
     "[rolling]") {
   for (const double b : {0.215, 1.0}) {
     const Measured closed = run(scene(b), {Method::closed}, 0),
-                   coarse = run(scene(b), {Method::solver, Stepper::rkf45}, 1e-5),
-                   fine = run(scene(b), {Method::solver, Stepper::rkf45}, 1e-9);
+                   coarse = run(scene(b), {Method::solver, gsl_odeiv2_step_rkf45}, 1e-5),
+                   fine = run(scene(b), {Method::solver, gsl_odeiv2_step_rkf45}, 1e-9);
     CHECK((closed.v_error == 0 && closed.stop_error == 0 && closed.evaluations == 0 &&
            closed.seconds > 0 && closed.failure.empty()));
     INFO("b " << b << " coarse " << coarse.v_error << " fine " << fine.v_error << " stop "
@@ -41,7 +41,7 @@ TEST_CASE(
     CHECK((coarse.evaluations > 10 && coarse.evaluations <= fine.evaluations));
     CHECK((b >= 1 ? fine.stop_error == 0 : fine.stop_error > 0 && fine.stop_error < 1e-6));
   }
-  const Measured memory = run(scene(0.215, 1e-4), {Method::solver, Stepper::rk8pd}, 1e-8);
+  const Measured memory = run(scene(0.215, 1e-4), {Method::solver, gsl_odeiv2_step_rk8pd}, 1e-8);
   CHECK((memory.v_error > 0 && memory.v_error < 1e-7 && memory.stop_error > 0));
 }
 

@@ -93,9 +93,9 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
   for (const double length : {1e-2, 1e-3, 1e-4, 1e-5})
     for (const Bulge bulge : {Bulge{length}, Bulge{length, length / 2}}) {
       const double stop = roll(bulge).stop_time();
-      for (const Stepper stepper : {Stepper::rkf45, Stepper::bsimp, Stepper::rk4imp}) {
-        INFO("length " << length << " damping " << bulge.damping << " stepper "
-                       << static_cast<int>(stepper));
+      for (const Stepper stepper :
+           {gsl_odeiv2_step_rkf45, gsl_odeiv2_step_bsimp, gsl_odeiv2_step_rk4imp}) {
+        INFO("length " << length << " damping " << bulge.damping << " stepper " << stepper->name);
         MemoryRoll motion = roll(scene(bulge), stepper);
         CHECK(std::abs(motion.stop_time() / stop - 1) < 1e-6);
       }
@@ -108,9 +108,10 @@ TEST_CASE("MemoryRoll: the rest does not depend on the units of length and time"
     for (const double s : {1e-20, 1e-9, 1.0, 1e9}) {
       const Body body{1, 0.04 * m, 0.5, 9.81 * m / (s * s)};
       const PowerLaw law{1.87e-3 * m * std::pow(s / m, 0.215), 0.215};
-      for (const Stepper stepper : {Stepper::rk8pd, Stepper::rk4imp, Stepper::msbdf}) {
+      for (const Stepper stepper :
+           {gsl_odeiv2_step_rk8pd, gsl_odeiv2_step_rk4imp, gsl_odeiv2_step_msbdf}) {
         MemoryRoll motion = roll({body, Geometry::exact, law, {1e-3 * m}, 0.5 * m / s, 0}, stepper);
-        INFO("metre " << m << " second " << s << " stepper " << static_cast<int>(stepper));
+        INFO("metre " << m << " second " << s << " stepper " << stepper->name);
         CHECK(std::abs(motion.stop_time() / (s * stop) - 1) < 1e-6);
       }
     }
@@ -127,10 +128,10 @@ TEST_CASE("MemoryRoll: a shift that vanishes at v0", "[rolling]") {
         motion.seek(3);
         return motion.velocity();
       };
-      const double by_rk8pd = speed(Stepper::rk8pd);
+      const double by_rk8pd = speed(gsl_odeiv2_step_rk8pd);
       INFO("slope " << slope << " b " << b);
-      CHECK(std::abs(speed(Stepper::rk4imp) - by_rk8pd) < 1e-9);
-      CHECK(std::abs(speed(Stepper::msbdf) - by_rk8pd) < 1e-9);
+      CHECK(std::abs(speed(gsl_odeiv2_step_rk4imp) - by_rk8pd) < 1e-9);
+      CHECK(std::abs(speed(gsl_odeiv2_step_msbdf) - by_rk8pd) < 1e-9);
     }
 }
 
@@ -142,9 +143,9 @@ TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {
       const Bulge bulge{1e-4, damping};
       return roll(scene(bulge, Geometry::approximate, {1.87e-3, 0}), stepper).stop_time();
     };
-    const double by_rkf45 = stop(Stepper::rkf45);
-    CHECK(std::abs(stop(Stepper::rk8pd) - by_rkf45) < 1e-8);
-    CHECK(std::abs(stop(Stepper::rk4imp) - by_rkf45) < 1e-8);
+    const double by_rkf45 = stop(gsl_odeiv2_step_rkf45);
+    CHECK(std::abs(stop(gsl_odeiv2_step_rk8pd) - by_rkf45) < 1e-8);
+    CHECK(std::abs(stop(gsl_odeiv2_step_rk4imp) - by_rkf45) < 1e-8);
   }
 }
 
@@ -158,9 +159,10 @@ TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps 
         return roll(scene({1e-3, damping}, Geometry::approximate, {1.87e-3, b}), stepper)
             .stop_time();
       };
-      const double by_rk8pd = stop(Stepper::rk8pd);
+      const double by_rk8pd = stop(gsl_odeiv2_step_rk8pd);
       INFO("b " << b << " damping " << damping);
-      for (const Stepper stepper : {Stepper::rkf45, Stepper::rk4imp, Stepper::bsimp})
+      for (const Stepper stepper :
+           {gsl_odeiv2_step_rkf45, gsl_odeiv2_step_rk4imp, gsl_odeiv2_step_bsimp})
         CHECK(std::abs(stop(stepper) / by_rk8pd - 1) < 1e-7);
       if (b == 0 && damping >= 0.5) {
         const double rolled = 0.5 / (9.81 * 1.87e-3 / (1.5 * 0.04));
@@ -171,10 +173,10 @@ TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps 
 
 TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluations and damping too",
           "[rolling]") {
-  CHECK(memory_stepper(scene({1e-3})) == Stepper::rk8pd);
+  CHECK(memory_stepper(scene({1e-3})) == gsl_odeiv2_step_rk8pd);
   for (const double damping : {0.0, 1e-3, 0.02}) {
     MemoryRoll motion = roll({1e-7, damping});
-    CHECK(memory_stepper(scene({1e-7, damping})) == Stepper::rk4imp);
+    CHECK(memory_stepper(scene({1e-7, damping})) == gsl_odeiv2_step_rk4imp);
     const auto law_owned = closed_roll(cylinder, {1.87e-3, 0.215}, 0.5, 0);
     Motion& law = *law_owned;
     motion.seek(2);
@@ -190,7 +192,7 @@ TEST_CASE("MemoryRoll: stiff lengths take an implicit solver, with few evaluatio
 TEST_CASE("MemoryRoll: down to any length the default needs few evaluations and finds the stop",
           "[rolling]") {
   // Of 1e-8 m the stop by rk4imp, whose steps shrink with the length.
-  MemoryRoll slow = roll(scene({1e-8}), Stepper::rk4imp);
+  MemoryRoll slow = roll(scene({1e-8}), gsl_odeiv2_step_rk4imp);
   const double known = slow.stop_time();
   CHECK(std::abs(roll({1e-8}).stop_time() - known) < 1e-8 * known);
   // The way differs from that of the law by some lengths and the tolerance of 1e-10, and the stop
@@ -212,8 +214,8 @@ TEST_CASE("MemoryRoll: down to any length the default needs few evaluations and 
   }
   CHECK(later < 1e-6 * law.stop_time());
   // Both sides of the limit: the ratio of the times is 0.95 / length.
-  CHECK(memory_stepper(scene({5e-8})) == Stepper::rk4imp);
-  CHECK(memory_stepper(scene({4.5e-8})) == Stepper::bsimp);
+  CHECK(memory_stepper(scene({5e-8})) == gsl_odeiv2_step_rk4imp);
+  CHECK(memory_stepper(scene({4.5e-8})) == gsl_odeiv2_step_bsimp);
 }
 
 TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]") {
@@ -311,12 +313,12 @@ TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[r
 
 TEST_CASE("MemoryRoll: too much work is refused", "[rolling]") {
   // An explicit solver is slow where the bulge is short, and is let do it.
-  MemoryRoll slow = roll(scene({1e-6}), Stepper::rk8pd, 1e-6);
+  MemoryRoll slow = roll(scene({1e-6}), gsl_odeiv2_step_rk8pd, 1e-6);
   CHECK(std::abs(slow.stop_time() / roll({1e-6}).stop_time() - 1) < 1e-5);
-  MemoryRoll never_done = roll(scene({1e-9}), Stepper::rk8pd, 1e-10, 10'000);
+  MemoryRoll never_done = roll(scene({1e-9}), gsl_odeiv2_step_rk8pd, 1e-10, 10'000);
   CHECK_THROWS_AS(never_done.stop_time(), Error);
   CHECK_THROWS_AS(never_done.seek(2), Error);
-  MemoryRoll rings = roll(scene({1e300}), Stepper::rk8pd, 1e-10, 10'000);
+  MemoryRoll rings = roll(scene({1e300}), gsl_odeiv2_step_rk8pd, 1e-10, 10'000);
   CHECK_THROWS_AS(rings.stop_time(), Error);
   rings.seek(1);  // the roll before it
   CHECK((rings.evaluations() > 0 && rings.evaluations() < 500'000));
@@ -328,7 +330,7 @@ TEST_CASE("MemoryRoll: a strong damping makes the roll long and stiff", "[rollin
   for (const double damping : {3.0, 30.0}) {
     const Bulge bulge{1e-4, damping};
     INFO("damping " << damping);
-    CHECK(memory_stepper(scene(bulge)) == Stepper::rk4imp);
+    CHECK(memory_stepper(scene(bulge)) == gsl_odeiv2_step_rk4imp);
     MemoryRoll motion = roll(bulge);
     const double stop = motion.stop_time();
     motion.seek(stop);
@@ -367,7 +369,8 @@ TEST_CASE("MemoryRoll: the solver of stiff lengths agrees with the other where b
     for (const double length : {1e-3, 1e-4, 1e-5, 1e-6}) {
       const Scene of = scene({length}, Geometry::exact, {1.87e-3, b});
       INFO("b " << b << " length " << length);
-      CHECK(std::abs(roll(of, Stepper::bsimp).stop_time() / roll(of, Stepper::rk8pd).stop_time() -
+      CHECK(std::abs(roll(of, gsl_odeiv2_step_bsimp).stop_time() /
+                         roll(of, gsl_odeiv2_step_rk8pd).stop_time() -
                      1) < 1e-8);
     }
 }
