@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# results.sh GOAL...: runs these goals of make, and puts the last line of each suite that ran into
-# tests/results.txt, in the place of what this system had there.
+# results.sh GOAL...: runs these goals of make, and puts the last line of each suite that ran, the lines and
+# branches that were reached, the mutants that were killed and those that lived into tests/results.txt, in
+# the place of what this system had there.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -14,7 +15,8 @@ trap 'rm -rf "$scratch"' EXIT
 for goal; do
   make "$goal" >"$scratch/said" 2>&1
   status=$?
-  last=$(grep -E '^[0-9]+ passed, [0-9]+ failed' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
+  last=$(sed -nE '/^[0-9]+ passed, [0-9]+ failed|^[0-9]+ of [0-9]+ killed|^(lines|branches): /p
+    s/^  (survived: )/\1/p' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
   [ $status = 0 ] || { wrong=1 && tail -n 20 "$scratch/said" && last+=" (make: exit status $status)"; }
   version=$(bin/smooth --version | cut -d ' ' -f 3)
   touch tests/results.txt

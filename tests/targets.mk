@@ -123,7 +123,7 @@ check_in = $(MAKE) -C $1 check SLOWER=5 \
                   tests/pages/terminal.sh'
 SECONDS ?= 60
 sanitized := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined \
-             -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS
+             -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3
 fuzz:
 	@$(call copy,build/fuzzing)
 	$(MAKE) -C build/fuzzing CXX=clang++-14 CXXFLAGS="$(sanitized) -fsanitize=fuzzer-no-link" \
@@ -189,8 +189,9 @@ coverage: build/coverage build/bench/troubles
 	  build/coverage $(call short,2); build/bench/troubles $(call short,2); } | \
 	  tee $(call short,build,samples)/coverage.txt
 
-# The last lines of whole suites on this system, kept in tests/results.txt; hours.
-RESULTS ?= check check-clang check-libcxx check-arm64 sanitize
+# The last lines of whole suites on this system, the mutants that lived and what the tests reach, kept in
+# tests/results.txt; hours.
+RESULTS ?= check check-clang check-libcxx check-arm64 sanitize coverage-lines mutate
 results:
 	@tests/results.sh $(RESULTS)
 
