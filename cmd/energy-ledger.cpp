@@ -214,8 +214,7 @@ int main(int argc, char** argv) {
   double temperature = not_given;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   Body& body = task.given.body;
-  tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
-  add_wind(tool, body);
+  tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, law);
   tool.geometry(task.given.geometry);

@@ -38,29 +38,14 @@ std::map<std::string, std::optional<Route>> routes() {
 }
 
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
-  tool.add("--slope", "S|fit",
-           "the mat rises by S metres a metre along growing x; fit: find it, of all runs",
-           [&](const std::string& text) {
-    Estimate slope;
-    options.fit_slope = text == "fit";
-    if (!options.fit_slope && !parse_estimate(text, slope))
-      fail("'{}' is no number, and not `fit`", shown(text));
-    bodies.body.slope = slope.value;
-    bodies.body.sigma_slope = slope.sigma;
-  });
-  tool.add("--wind", "W,...|fit",
-           "speed of the air towards falling x [m/s], one or one for each run, for a law with d2; "
-           "fit: find one for all runs",
-           [&](const std::string& text) {
-    options.fit_wind = text == "fit";
-    if (!options.fit_wind) bodies.winds = to_numbers(text, any_number);
-  });
+  tool.bodies(bodies.all, bodies.list, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind},
+              options);
   add_height(tool, bodies.height);
   tool.add("--x0", "X,...",
            "where speeds begin on the road [m]; one, or one for each run: 0,2400 (the column x)",
            [&](const std::string& text) {
     for (const std::string& x : split_names(text, ','))
-      bodies.begins.push_back({to_number(x, any_number)});
+      bodies.begins.push_back(to_number(x, any_number));
   });
   tool.choice("--steepness", options.fit_steepness, {{"fit", true}},
               "find a factor of the height, one for all runs");
@@ -95,7 +80,7 @@ void refuse_runs(Tool& tool) {
 /// Gives the bodies their road; refuses what needs one without it, and what does not go with one.
 void give_road(Tool& tool, Bodies& bodies, const Road* road, const FitOptions& options,
                Route route) {
-  bodies.body.road = road;
+  for (Body& body : bodies.all) body.road = road;
   if (!road) return tool.refuse({"x0", "steepness"}, "goes with --height");
   if (!options.fit_slope) tool.refuse({"slope"}, "does not go with --height, which has the slope");
   if (route != Route::velocity) tool.refuse({"x0"}, "is for runs of speeds: positions have it");
@@ -129,13 +114,6 @@ std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<Run> runs,
   return fits;
 }
 
-/// A number of the row of a fit, and its column.
-struct Cell {
-  Column column;
-  double value;
-  bool is_count = false;  ///< not rounded to --digits
-};
-
 /// The row of a fit.
 std::vector<Cell> row_of(const FitOfRuns& fit) {
   const FitResult& r = *fit.result;
@@ -149,7 +127,7 @@ std::vector<Cell> row_of(const FitOfRuns& fit) {
   std::size_t pair = 0;
   for (std::size_t j = 1; j < columns.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) row.push_back({{names[pair++]}, r.correlations[i][j]});
-  row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n), true}});
+  row.insert(row.end(), {{{"rms"}, r.rms}, {{"n"}, static_cast<double>(r.n)}});
   const bool roll = r.v0.size() == 1;  // the numbers of one of several are no columns
   if (roll) estimate({"v0", "m/s"}, r.v0.front());
   for (std::size_t i = 0; i < scene_numbers.size(); ++i)
@@ -172,25 +150,16 @@ std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& opt
 /// Writes a row for each fit; `fitted` is one of them. A run that could not be fitted has blank
 /// cells, and so have errors that do not exist.
 void write(Output& out, const std::vector<FitOfRuns>& fits, const FitOfRuns& fitted,
-           bool with_run) {
-  std::vector<Column> columns;
+           const FitOptions& options, bool with_run) {
   std::vector<Cell> blank = row_of(fitted);
-  for (Cell& cell : blank) {
-    columns.push_back(cell.column);
-    cell.value = NAN;
-  }
-  if (with_run) columns.push_back({"run"});
-  out.names(columns);
+  for (Cell& cell : blank) cell.value = NAN;
+  std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> names;
   for (const FitOfRuns& fit : fits) {
-    const bool without_errors = !fit.result || fit.result->errors == Errors::none;
-    for (const auto& [column, value, is_count] : fit.result ? row_of(fit) : blank)
-      if (std::isnan(value) && without_errors) out.cell("");
-      else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
-      else out.cell(value);
-    if (with_run) out.cell(fit.runs.front().name);
-    out.end_line();
+    rows.push_back(fit.result ? row_of(fit) : blank);
+    if (with_run) names.push_back(fit.runs.front().name);
   }
-  out.flush();  // the rows stand above the report
+  write_table(out, line_above(fits, options), rows, names);
 }
 
 /// The columns of a file without names: those of the route, or speeds over time where the body is
@@ -206,8 +175,6 @@ std::vector<std::string> order_of_columns(const Tool& tool, std::optional<Route>
 
 /// The route without --route, by the columns of the input.
 Route default_route(const Reader& in) {
-  if (in.find("sigma_a") || in.find("sigma_d0"))
-    fail<InputError>("these are rows of fitpower: --route fits joins them");
   if (in.find("D")) return Route::shift;
   if (in.find("x") || !in.find("v")) return Route::position;
   return Route::velocity;
@@ -237,10 +204,6 @@ int main(int argc, char** argv) {
       "--route", given_route, routes(),
       "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
       "if there is D, else position if x, else velocity");
-  tool.numbers("-K,--shape-factor", bodies.shape_factors, not_negative,
-               "shape factor K of J = K m R^2; one, or one for each run: 0.5,0.83");
-  tool.numbers("-R,--radius", bodies.radii, positive, "radius [m]; one, or one for each run");
-  tool.body(bodies.body, {&Body::g});
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
@@ -259,6 +222,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     Reader& in = tool.read(order_of_columns(tool, given_route));
+    if (in.find("sigma_a") || in.find("sigma_d0"))
+      fail<InputError>("these are rows of fitpower: --route fits joins them");
     Route route = given_route ? *given_route : default_route(in);
     options.possible_filters = filters_of_sensors();
     const bool trajectory = is_trajectory(route);
@@ -280,9 +245,7 @@ int main(int argc, char** argv) {
     const auto first = std::ranges::find_if(fits, fitted);
     if (first == fits.end()) return trouble;
 
-    tool.out.text("## " + line_above(fits, options));
-    tool.out.end_line();
-    write(tool.out, fits, *first, each);
+    write(tool.out, fits, *first, options, each);
     const bool compares = with_report || tool.checks;
     if (options.robust && compares)
       tool.warn(

@@ -208,8 +208,7 @@ void say_stop(Tool& tool, const Task& task, Motion& motion, double end) {
 void add_options(Tool& tool, Task& task) {
   Scene& roll = task.roll;
   roll.v0 = not_given;
-  tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
-  add_wind(tool, roll.body);
+  tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, task.law);
   tool.text("--run", task.run, "NAME", "the run whose row of --law is rolled");

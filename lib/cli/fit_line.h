@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The `##` line of fitpower: of what its rows were made.
+// The bodies in `##` lines: behind which body, slope and geometry numbers were made.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "contact/law.h"
 #include "fit/input.h"
-#include "text/reader.h"
 
 namespace rolling {
 
@@ -19,32 +18,14 @@ namespace rolling {
 std::string line_of_fit(const std::string& route, const FitOptions&,
                         const std::vector<std::optional<ShiftOf>>& of_runs);
 
-/// The body, the slope and the geometry behind each of `rows` rows, as told by the line of
-/// fitpower above them; NaN for a slope and a wind that are in the rows. None if there is no such
-/// line, if it has no numbers, or if its numbers are those of more runs than rows. Throws Error for
-/// a line that fitpower does not write.
+/// The contact of each of so many rows in the words `K 0.5 R 0.04,0.05 g 9.81 [slope S] [wind W]
+/// [exact]`; NaN for a slope and a wind that are in the rows. Empty if they are of more runs than
+/// rows, nothing for other words.
+std::optional<std::vector<ShiftOf>> read_contacts(std::span<const std::string> words,
+                                                  std::size_t rows);
+
+/// The same from the line of fitpower above the rows. Empty if there is no such line, or if it has
+/// no numbers. Throws Error for a line that fitpower does not write.
 std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows);
-
-/// The same for the rows of a run of the file that a reader reads. Rows without numbers, of runs
-/// that were not fitted, have a place in the line too, and are passed over by the reader.
-class ContactsOfRun {
- public:
-  explicit ContactsOfRun(const Reader& in) : in_(in), left_out_(in.left_out()) {}
-  /// Notes the present row.
-  void take_row() { places_.push_back(places_.size() + in_.left_out() - left_out_); }
-  /// One for each row that was noted, behind the last row of the run; none if they are not known.
-  std::vector<ShiftOf> contacts() const {
-    const auto all = contacts_of_rows(in_.history(), places_.size() + in_.left_out() - left_out_);
-    std::vector<ShiftOf> of_rows;
-    for (const std::size_t place : places_)
-      if (!all.empty()) of_rows.push_back(all[place]);
-    return of_rows;
-  }
-
- private:
-  const Reader& in_;
-  std::size_t left_out_;
-  std::vector<std::size_t> places_;
-};
 
 }  // namespace rolling

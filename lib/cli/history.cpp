@@ -9,6 +9,7 @@
 
 #include "base/enumeration.h"
 #include "base/error.h"
+#include "cli/fit_line.h"
 #include "contact/body.h"
 #include "signal/method.h"
 #include "text/row_pipe.h"
@@ -17,25 +18,6 @@
 
 namespace rolling {
 namespace {
-
-/// `[exact] K 0.5 R 0.04 g 9.81 [slope 0.001]`, perhaps with uncertainties.
-std::optional<ShiftOf> shift_line(std::span<const std::string> words) {
-  ShiftOf of{};
-  if (!words.empty() && words[0] == "exact") {
-    of.geometry = Geometry::exact;
-    words = words.subspan(1);
-  }
-  if (words.size() != 6 && words.size() != 8) return {};
-  for (std::size_t i = 0; i < words.size(); i += 2) {
-    const UncertainNumber& number = uncertain_numbers[i / 2];
-    Estimate estimate;
-    if (words[i] != number.name || !parse_estimate(words[i + 1], estimate)) return {};
-    of.body.*number.value = estimate.value;
-    of.body.*number.sigma = estimate.sigma;
-  }
-  if (!(of.body.K >= 0 && of.body.R > 0 && of.body.g > 0)) return {};
-  return of;
-}
 
 /// A streaming filter as one of whole columns.
 LinearFilter linear(Quantity from, Quantity to, const SignalOptions& options, std::size_t reach) {
@@ -177,8 +159,11 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
   for (const std::string& line : lines) try {
       const auto words = split_names(line, '\0');
       if (words.size() < 2) continue;
-      if (words[0] == "shift-from-accel")
-        history.shift_of = shift_line(std::span(words).subspan(1));
+      if (words[0] == "shift-from-accel") {
+        const auto of = read_contacts(std::span(words).subspan(1), 1);
+        history.shift_of.reset();
+        if (of && !of->empty()) history.shift_of = of->front();
+      }
       if (!known) continue;
       known = extend(history, line, words, t);
       if (!known) history = {.shift_of = history.shift_of};
@@ -218,18 +203,19 @@ std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines
 }
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
-  constexpr std::string_view smoothed = "smooth v ";
+  constexpr std::string_view smooth = "smooth v ";
   const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first
-  bool a_of_v = false;
-  bool D_of_v = false;
-  for (const std::string& line : lines) {
-    if (line.starts_with("differentiate v ")) a_of_v = true;
-    if (line.starts_with("shift-from-accel ")) D_of_v = a_of_v;
-    if (!sorted && line.starts_with(smoothed) &&
-        signal_options(smoothing_methods, line.substr(smoothed.size())))
-      a_of_v = D_of_v = false;  // v has been replaced since
-  }
-  return D_of_v;
+  const auto smooths = [&](const std::string& line) {
+    return !sorted && line.starts_with(smooth) &&
+           signal_options(smoothing_methods, line.substr(smooth.size()));
+  };
+  const auto begins = [](std::string_view words) {
+    return [words](const std::string& line) { return line.starts_with(words); };
+  };
+  // v has been replaced where it was smoothed.
+  const auto since = std::find_if(lines.rbegin(), lines.rend(), smooths).base();
+  const auto derivative = std::find_if(since, lines.end(), begins("differentiate v "));
+  return std::any_of(derivative, lines.end(), begins("shift-from-accel "));
 }
 
 // How many rows were removed is not known, nor at which times, and thus not the windows at the

@@ -35,22 +35,21 @@ bool is_coefficient(const Reader& in, const std::string& name) {
   });
 }
 
-/// The law whose coefficients are those of the file, no more and no less; none for a table of v and
-/// D. Throws InputError for coefficients that no law has together.
-const LawForm* law_of_columns(const Reader& in, const std::string& file) {
+/// The law whose coefficients are those of the file, no more and no less. Throws InputError if
+/// there is none.
+const LawForm& law_of_columns(const Reader& in, const std::string& file) {
   std::set<std::string> written;
   for (const Column& column : in.columns())
     if (is_coefficient(in, column.name)) written.insert(column.name);
   for (const LawForm& form : laws()) {
     std::set<std::string> names;
     for (const LawForm::Coefficient& c : form.coefficients) names.insert(c.name);
-    if (names == written) return &form;
+    if (names == written) return form;
   }
-  const bool is_row = written.contains("a") || written.contains("d0");
-  if (is_row && !(in.find("v") && in.find("D")))
-    fail<InputError>("{}: no law has these coefficients and no others: {}", shown(file),
-                     enumeration({written.begin(), written.end()}));
-  return nullptr;
+  if (!written.contains("a") && !written.contains("d0"))
+    fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
+  fail<InputError>("{}: no law has these coefficients and no others: {}", shown(file),
+                   enumeration({written.begin(), written.end()}));
 }
 
 /// The changes of the coefficients that a law takes with that of a written one. A central
@@ -84,111 +83,57 @@ constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
                                        {"x0", "m", &LawOfFile::x0},
                                        {"t0", "s", &LawOfFile::t0}};
 
-/// Reads rows of fitpower.
-class RowReader {
- public:
-  RowReader(Reader& in, const LawForm& form, bool with_errors) : in_(in), form_(form) {
-    for (const RollNumber& number : roll_numbers)
-      if (in.find(number.name)) roll_.emplace_back(in.need_as_is(number.name, number.unit), number);
-    for (const Column& c : columns_of(form)) {
-      coefficients_.push_back(in.need_as_is(c.name, c.unit));
-      if (with_errors) sigmas_.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+/// The rows of fitpower in a file, with their bodies.
+std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file,
+                                 const ShiftOf& given, bool with_errors) {
+  const LawForm& form = law_of_columns(in, file);
+  RowsOfFit rows(in, form, with_errors);
+  std::vector<LawOfFile> all;
+  std::set<std::string> runs;
+  while (rows.next_run()) {
+    if (&law_of_columns(in, file) != &form)
+      fail<InputError>("{}: rows of several laws: give those of one", shown(file));
+    const std::size_t first = all.size();
+    while (rows.next()) all.push_back(rows.read());
+    const std::vector<ShiftOf> contacts = rows.contacts();
+    for (std::size_t i = first; i < all.size(); ++i) {
+      LawOfFile& row = all[i];
+      if (!runs.insert(row.run).second)
+        fail<InputError>(
+            "{}: more than one row{}: a law is one row of fitpower, or one for each run, with its "
+            "name in a column run",
+            shown(file), row.run.empty() ? "" : fmt::format(" of run '{}'", shown(row.run)));
+      row.contact = given;
+      if (!contacts.empty()) {
+        const std::string others = take_contact(tool, contacts[i - first], row.contact);
+        if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
+      }
+      // The slope and the wind of a row are fitted: they take precedence over those of a scene.
+      Body& body = row.contact.body;
+      if (!std::isnan(row.slope) && !tool.on_command_line("slope")) body.slope = row.slope;
+      if (!std::isnan(row.wind) && !tool.on_command_line("wind")) body.wind = row.wind;
+      if (!std::isnan(row.steepness)) body.steepness = row.steepness;
     }
-    if (with_errors)
-      for (const std::string& name : correlations_of(form))
-        correlations_.push_back(in.need_as_is(name));
   }
-
-  LawOfFile read() const {
-    std::vector<double> written;
-    for (const std::size_t slot : coefficients_) written.push_back(in_[slot]);
-    LawOfFile row{Law::as_written(form_, written)};
-    if (const auto run = in_.find("run")) row.run = in_.text(*run);
-    for (const auto& [slot, number] : roll_) row.*number.value = in_[slot];
-    for (std::size_t j = 0; j < sigmas_.size(); ++j) {
-      row.changes.push_back(changes_of(form_, written, j, in_[sigmas_[j]]));
-      row.correlations.emplace_back();
-      for (std::size_t i = 0; i < j; ++i)
-        row.correlations[j].push_back(in_[correlations_[j * (j - 1) / 2 + i]]);
-    }
-    return row;
-  }
-
- private:
-  Reader& in_;
-  const LawForm& form_;
-  std::vector<std::pair<std::size_t, RollNumber>> roll_;  // with their slots
-  std::vector<std::size_t> coefficients_;                 // slots, as these
-  std::vector<std::size_t> sigmas_;
-  std::vector<std::size_t> correlations_;
-};
-
-/// The rows of one run of the file; each has the body that the `##` line tells of it.
-std::vector<LawOfFile> read_rows_of_run(Tool& tool, Reader& in, const RowReader& reader,
-                                        const ShiftOf& given) {
-  std::vector<LawOfFile> rows;
-  ContactsOfRun of_run(in);
-  while (in.next()) {
-    of_run.take_row();
-    rows.push_back(reader.read());
-  }
-  const std::vector<ShiftOf> contacts = of_run.contacts();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    LawOfFile& row = rows[i];
-    row.contact = given;
-    if (!contacts.empty()) {
-      row.has_contact = true;
-      const std::string others = take_contact(tool, contacts[i], row.contact);
-      if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
-    }
-    // The slope and the wind of a row are fitted: they take precedence over those of a scene.
-    if (!std::isnan(row.slope) && !tool.on_command_line("slope"))
-      row.contact.body.slope = row.slope;
-    if (!std::isnan(row.wind) && !tool.on_command_line("wind")) row.contact.body.wind = row.wind;
-    if (!std::isnan(row.steepness)) row.contact.body.steepness = row.steepness;
-  }
-  return rows;
+  if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(file));
+  return all;
 }
 
-/// The rows of fitpower in a file.
-std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const LawForm& form,
-                                 const LawOptions& options, const ShiftOf& given,
-                                 bool with_errors) {
-  const bool power = &form == &laws().front();
-  if (!power)
-    tool.refuse({"coefficient", "exponent"}, fmt::format("does not go with D = {}", form.formula));
-  if (with_errors)
-    tool.refuse({"coefficient", "exponent"}, "does not go with the uncertainties of a row");
-  const bool replaced = tool.on_command_line("coefficient") || tool.on_command_line("exponent");
-  if (replaced) tool.need({"coefficient", "exponent"});
-  const RowReader reader(in, form, with_errors);
-  std::vector<LawOfFile> all;
-  while (in.next_run()) {
-    if (law_of_columns(in, options.file) != &form)
-      fail<InputError>("{}: rows of several laws: give those of one", shown(options.file));
-    std::ranges::move(read_rows_of_run(tool, in, reader, given), std::back_inserter(all));
+/// What two columns of a file make.
+template <typename Table>
+Table read_table(Reader& in, const std::string& file, std::size_t x, std::size_t y) {
+  std::vector<double> all_x;
+  std::vector<double> all_y;
+  while (in.next_run())
+    while (in.next()) {
+      all_x.push_back(in[x]);
+      all_y.push_back(in[y]);
+    }
+  try {
+    return {std::move(all_x), std::move(all_y)};
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", file, error.what());
   }
-  if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(options.file));
-  std::set<std::string> runs;
-  for (LawOfFile& row : all) {
-    if (const auto law = row.law.power(); law && !replaced && !(law->a > 0))
-      fail<InputError>("{}: a = {} must be greater than 0", shown(options.file), law->a);
-    if (all.size() > 1 && row.run.empty())
-      fail<InputError>(
-          "{}: more than one row: a law is one row of fitpower, or one for each run, "
-          "with its name in a column run",
-          shown(options.file));
-    if (!runs.insert(row.run).second)
-      fail<InputError>("{}: two rows of run '{}'", shown(options.file), shown(row.run));
-    const auto is_taken = [&](const RollNumber& number) {
-      return !std::isnan(row.*number.value) && tool.has(number.name) &&
-             !tool.on_command_line(number.name);
-    };
-    if (replaced && !row.has_contact && std::ranges::none_of(roll_numbers, is_taken))
-      fail<OptionError>("--law adds nothing to the command line: leave it out");
-    if (replaced) row.law = options.power;
-  }
-  return all;
 }
 
 }  // namespace
@@ -254,11 +199,6 @@ void add_options(Tool& tool, LawOptions& law) {
             "file (- is standard input) with the law: a row of fitpower or a table of v D");
 }
 
-void add_wind(Tool& tool, Body& body) {
-  tool.number("--wind", body.wind, any_number,
-              "speed of the air towards falling x [m/s] (0): d2 v^2 becomes d2 (v + W)|v + W|");
-}
-
 void check_wind(const Body& body, const Law& law) {
   if (body.wind != 0 && !law.has_drag())
     fail<OptionError>("--wind acts on a term d2 v^2, which this law does not have");
@@ -274,18 +214,60 @@ std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file) {
   Reader& in = tool.read_file(file, {"x", "h"});
   const auto x = in.need("x");
   const auto h = in.need_as_is("h", "m");
-  std::vector<double> places;
-  std::vector<double> heights;
-  while (in.next_run())
-    while (in.next()) {
-      places.push_back(in[x]);
-      heights.push_back(in[h]);
-    }
-  try {
-    return std::make_unique<const Road>(std::move(places), std::move(heights));
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", file, error.what());
+  return std::make_unique<const Road>(read_table<Road>(in, file, x, h));
+}
+
+RowsOfFit::RowsOfFit(Reader& in, const LawForm& form, bool with_errors) : in_(in), form_(form) {
+  for (const RollNumber& number : roll_numbers)
+    if (in.find(number.name))
+      roll_.emplace_back(in.need_as_is(number.name, number.unit), number.value);
+  for (const Column& c : columns_of(form)) {
+    coefficients_.push_back(in.need_as_is(c.name, c.unit));
+    if (with_errors) sigmas_.push_back(in.need_as_is("sigma_" + c.name, c.unit));
   }
+  if (with_errors)
+    for (const std::string& name : correlations_of(form))
+      correlations_.push_back(in.need_as_is(name));
+}
+
+bool RowsOfFit::next_run() {
+  places_.clear();
+  left_out_ = in_.left_out();
+  return in_.next_run();
+}
+
+bool RowsOfFit::next() {
+  if (!in_.next()) return false;
+  places_.push_back(places_.size() + in_.left_out() - left_out_);
+  return true;
+}
+
+LawOfFile RowsOfFit::read() const {
+  LawOfFile row;
+  for (const std::size_t slot : coefficients_) row.coefficients.push_back({in_[slot]});
+  std::vector<double> written;
+  for (const std::size_t slot : coefficients_) written.push_back(in_[slot]);
+  row.law = Law::as_written(form_, written);
+  if (const auto law = row.law.power(); law && !(law->a > 0))
+    fail("a = {} must be greater than 0", law->a);
+  if (const auto run = in_.find("run")) row.run = in_.text(*run);
+  for (const auto& [slot, number] : roll_) row.*number = in_[slot];
+  for (std::size_t j = 0; j < sigmas_.size(); ++j) {
+    row.coefficients[j].sigma = in_[sigmas_[j]];
+    row.changes.push_back(changes_of(form_, written, j, in_[sigmas_[j]]));
+    row.correlations.emplace_back();
+    for (std::size_t i = 0; i < j; ++i)
+      row.correlations[j].push_back(in_[correlations_[j * (j - 1) / 2 + i]]);
+  }
+  return row;
+}
+
+std::vector<ShiftOf> RowsOfFit::contacts() const {
+  const auto all = contacts_of_rows(in_.history(), places_.size() + in_.left_out() - left_out_);
+  std::vector<ShiftOf> of_rows;
+  for (const std::size_t place : places_)
+    if (!all.empty()) of_rows.push_back(all[place]);
+  return of_rows;
 }
 
 std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,
@@ -295,34 +277,26 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
     tool.need({"coefficient", "exponent", "radius", "shape-factor"});
     return {{.law = options.power, .contact = given}};
   }
-  Reader& in = tool.read_file(file, {"v", "D"});
-  if (const LawForm* form = law_of_columns(in, file)) {
-    auto rows = read_rows(tool, in, *form, options, given, with_errors);
-    for (const LawOfFile& row : rows)
-      if (std::isnan(row.contact.body.K) || std::isnan(row.contact.body.R))
-        tool.need({"radius", "shape-factor"});
-    return rows;
-  }
-  tool.need({"radius", "shape-factor"});
-  tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
-  if (!in.find("v") || !in.find("D"))
-    fail<InputError>("{}: neither a table of v and D nor a row of fitpower", shown(file));
+  const bool replaced = tool.on_command_line("coefficient") || tool.on_command_line("exponent");
   if (with_errors)
+    tool.refuse({"coefficient", "exponent"}, "does not go with the uncertainties of a row");
+  Reader& in = tool.read_file(file, {"v", "D"});
+  const bool is_table = in.find("v") && in.find("D");
+  if (is_table) tool.refuse({"coefficient", "exponent"}, "does not go with a table of v D");
+  if (is_table && with_errors)
     fail("{}: a table of v and D has no uncertainties: give a row of fitpower", shown(file));
-  const auto v = in.need("v");
-  const auto D = in.need("D");
-  std::vector<double> speeds;
-  std::vector<double> shifts;
-  while (in.next_run())
-    while (in.next()) {
-      speeds.push_back(in[v]);
-      shifts.push_back(in[D]);
-    }
-  try {
-    return {{.law = TableLaw(std::move(speeds), std::move(shifts)), .contact = given}};
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", file, error.what());
+  if (replaced) tool.need({"coefficient", "exponent"});
+  std::vector<LawOfFile> laws;
+  if (is_table) {
+    const auto v = in.need("v");
+    laws.push_back({.law = read_table<TableLaw>(in, file, v, in.need("D")), .contact = given});
+  } else laws = read_rows(tool, in, file, given, with_errors);
+  for (LawOfFile& law : laws) {
+    if (replaced) law.law = options.power;
+    if (std::isnan(law.contact.body.K) || std::isnan(law.contact.body.R))
+      tool.need({"radius", "shape-factor"});
   }
+  return laws;
 }
 
 const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& run) {

@@ -43,8 +43,7 @@ struct LawOptions {
 /// -a, -b and --law.
 void add_options(Tool&, LawOptions&);
 
-/// --wind, and an Error for a wind under a law that has no term for the drag of the air.
-void add_wind(Tool&, Body&);
+/// Throws Error for a wind under a law that has no term for the drag of the air.
 void check_wind(const Body&, const Law&);
 
 /// --height, and the road of its table, x and h; none without a file.
@@ -56,8 +55,7 @@ struct LawOfFile {
   Law law = {};
   /// Of the options; where these give no number, of the row of fitpower and its `##` line.
   ShiftOf contact = {};
-  bool has_contact = false;  ///< the `##` line of the row has the body
-  std::string run = {};      ///< the run that the row is of, if it has a column run
+  std::string run = {};  ///< the run that the row is of, if it has a column run
   /// What the row has of its roll; else NaN.
   double slope = not_given;
   double wind = not_given;
@@ -65,9 +63,10 @@ struct LawOfFile {
   double v0 = not_given;
   double x0 = not_given;
   double t0 = not_given;
-  /// Of a row, where they are asked for: by how much the coefficients that the law takes change
-  /// with one standard uncertainty of each coefficient of the formula, and the correlations of
-  /// these, row by row below the diagonal.
+  /// Of a row; with their uncertainties, where these are asked for. Then also by how much the
+  /// coefficients that the law takes change with one standard uncertainty of each coefficient of
+  /// the formula, and the correlations of these, row by row below the diagonal.
+  std::vector<Estimate> coefficients = {};
   Matrix changes = {};
   Matrix correlations = {};
 
@@ -79,14 +78,39 @@ struct LawOfFile {
   double sigma(double v) const;
 };
 
+/// Reads rows of fitpower, run by run.
+class RowsOfFit {
+ public:
+  /// Declares the columns that a row of this law needs.
+  RowsOfFit(Reader&, const LawForm&, bool with_errors);
+  bool next_run();
+  bool next();
+  /// The present row, without its body. Throws Error if its a is not above 0.
+  LawOfFile read() const;
+  /// Behind the last row of a run: the body of each of its rows; empty if they are not known. Rows
+  /// without numbers, of runs that were not fitted, have a place in the `##` line too, and the
+  /// reader leaves them out.
+  std::vector<ShiftOf> contacts() const;
+
+ private:
+  Reader& in_;
+  const LawForm& form_;
+  std::vector<std::pair<std::size_t, double LawOfFile::*>> roll_;  // with their slots
+  std::vector<std::size_t> coefficients_;                          // slots, as these
+  std::vector<std::size_t> sigmas_;
+  std::vector<std::size_t> correlations_;
+  std::vector<std::size_t> places_;  // of the rows of this run, those without numbers counted
+  std::size_t left_out_ = 0;         // rows, before this run
+};
+
 /// The laws that the options tell: a v^b if there is no file, which then needs a and b; else a
 /// table of v and D, or rows of fitpower, a file with the columns of the coefficients of a law.
 /// Several rows have a column run with different names. `-` is standard input. -a and -b on the
 /// command line replace the law of a row together. `given` is what the options give of the body,
 /// where K and R may be NaN; the row completes it, and where it has other numbers than are given,
 /// a line says so. Columns with units are converted to SI. `with_errors`: a row needs its
-/// uncertainties. Throws Error for any other file, for rows of several laws, for a row that tells
-/// nothing, for a body without K or R, and for another law than a v^b beside -a or -b.
+/// uncertainties. Throws Error for any other file, for rows of several laws, and for a body without
+/// K or R.
 std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const ShiftOf& given,
                                  bool with_errors = false);
 

@@ -108,13 +108,16 @@ const std::map<std::type_index, std::string> ways_out{
 std::string Tool::told(const Error& error) const {
   const auto way_out = ways_out.find(typeid(error));
   if (way_out == ways_out.end()) return error.what();
+  std::string text = error.what() + way_out->second;
   const auto is_coast = [](const std::string& line) {
     return line.ends_with(" coast") || line.ends_with(" rolls");
   };
-  if (readers_.empty() || std::ranges::none_of(readers_.back()->history(), is_coast))
-    return error.what() + way_out->second;
-  return error.what() +
-         replace_all(way_out->second, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
+  if (!readers_.empty() && std::ranges::any_of(readers_.back()->history(), is_coast))
+    text = replace_all(text, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
+  if (has("slope") && given("slope"))
+    text = replace_all(
+        text, {{"up a slope and back: --slope fit", "towards falling x their speeds are below 0"}});
+  return text;
 }
 
 /// Flushes the output and prints the counts; returns the exit status.
@@ -163,7 +166,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
       return finish(0);
     }
     standard_input_taken_ = take_scene();
-    doubt_radii();
+    doubt_body();
     return finish(work());
   } catch (const Error& error) {
     say(message_of(error));

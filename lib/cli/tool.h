@@ -28,6 +28,9 @@ class App;  // only tool_options.cpp includes CLI11, which needs several seconds
 
 namespace rolling {
 
+struct BodyOption;
+struct FitOptions;
+
 inline constexpr int trouble = 2;  ///< the exit status after an error
 
 /// Writes `NAME: TEXT`, one line of printable ASCII of at most 512 bytes, to standard error.
@@ -78,6 +81,10 @@ double to_number(const std::string& text, const Domain&, double* sigma = nullptr
 /// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83
 std::vector<Estimate> to_numbers(const std::string& text, const Domain&);
 
+/// The index of the value for run i of so many: there is one for all, or one for each.
+std::size_t value_of_run(std::string_view option, std::size_t values, std::size_t i,
+                         std::size_t runs);
+
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 class Tool {
@@ -95,9 +102,7 @@ class Tool {
   void flag(const std::string& names, bool& value, const std::string& help) {
     choice<bool>(names, value, {{"false", false}, {"true", true}}, help, Values::none);
   }
-  /// With `sigma` the number may have an uncertainty (0.5+-0.005).
-  void number(const std::string& names, double& value, const Domain&, const std::string& help,
-              double* sigma = nullptr);
+  void number(const std::string& names, double& value, const Domain&, const std::string& help);
   template <typename Integer>
   void count(const std::string& names, Integer& value, const Domain& domain,
              const std::string& help) {
@@ -105,9 +110,6 @@ class Tool {
       value = static_cast<Integer>(to_number(text, domain));
     });
   }
-  /// One number or several, see to_numbers().
-  void numbers(const std::string& names, std::vector<Estimate>& values, const Domain&,
-               const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& type,
             const std::string& help);
   enum class Values { none, one, many };
@@ -133,10 +135,14 @@ class Tool {
            Values values = Values::one);
 
   // Options that tools share.
-  /// -m -R -K -g --slope, as far as these numbers are named. Before they are read, Body has
-  /// not_given, 9.81 for g, and 0 for the slope. R, K, g and the slope may have an uncertainty
-  /// (0.5+-0.005).
+  /// -m -R -K -g --slope --wind, as far as these numbers are named. Before they are read, Body has
+  /// not_given, 9.81 for g, and 0 for the slope and the wind. R, K, g and the slope may have an
+  /// uncertainty (0.5+-0.005).
   void body(Body&, std::initializer_list<double Body::*>);
+  /// The same for runs: each option has one number, or one for each run, and there are then so many
+  /// bodies, and `list` is the option that has them. The slope and the wind may be `fit`.
+  void bodies(std::vector<Body>&, std::string& list, std::initializer_list<double Body::*>,
+              FitOptions&);
   void geometry(Geometry& geometry) {
     choice<Geometry>("--exact", geometry,
                      {{"false", Geometry::approximate}, {"true", Geometry::exact}},
@@ -212,7 +218,8 @@ class Tool {
   /// Sets the options that are not on the command line from the scene file; ignores keys without
   /// an option in this tool. True if the scene was standard input.
   bool take_scene();
-  void doubt_radii();                          ///< that are hardly meant in metres
+  void set(Body&, const BodyOption&, const Estimate&);
+  void doubt_body();  ///< tells numbers that are hardly meant in these units
   std::string message_of(const Error&) const;  ///< with its place
   std::string fixed_values() const;            ///< `--fix a=2e-3, --slope 0.1`: on the command line
   /// Refuses `K=0.5`, which is meant as an option, unless there is a file of that name.
@@ -227,6 +234,8 @@ class Tool {
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
   bool failed_ = false;
   LinesOfRuns waiting_;
+  Body last_body_{not_given, not_given, not_given};  // of the options
+  std::vector<std::string> doubts_;                  // about its numbers
   std::vector<std::unique_ptr<Reader>> readers_;
   std::unique_ptr<CLI::App> app_;
   std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool

@@ -7,15 +7,45 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "base/enumeration.h"
 #include "base/version.h"
+#include "fit/input.h"
 #include "text/lines.h"
 
 namespace rolling {
+
+/// The options of the body. Their long names are keys of a scene.
+struct BodyOption {
+  const char* names;
+  double Body::*value;
+  double Body::*sigma;
+  Domain domain;
+  const char* help;
+  double least;  ///< that bodies have
+  double most;
+  const char* doubt;  ///< what a value beyond them may mean
+  double unit = 1;    ///< the other unit that it may be in
+};
+static constexpr BodyOption body_options[] = {
+    {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]", 0, INFINITY, ""},
+    {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]", 0, 1,
+     "R = {} m: if that is millimetres, write {}", 1e-3},
+    {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative, "shape factor K of J = K m R^2",
+     0, 1, "K = {}: a cart has about 0, a ball 0.4, a solid cylinder 0.5, a tube 1"},
+    {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)", 0.1, 100,
+     "g = {} m/s^2: if that is cm/s^2, write {}", 1e-2},
+    {"--slope", &Body::slope, &Body::sigma_slope, any_number,
+     "rise of the mat in metres per metre of growing x (0)", -1, 1,
+     "slope = {}: if that is per cent, write {}", 1e-2},
+    {"--wind", &Body::wind, nullptr, any_number,
+     "speed of the air towards falling x [m/s] (0): d2 v^2 becomes d2 (v + W)|v + W|", -30, 30,
+     "wind = {} m/s: if that is km/h, write {:.3g}", 1 / 3.6}};
 
 namespace {
 
@@ -25,12 +55,6 @@ constexpr std::size_t help_column = 30;
 constexpr std::string_view keys[] = {"mass",  "radius",      "shape-factor", "gravity",
                                      "slope", "coefficient", "exponent",     "exact",
                                      "v0",    "x0",          "memory",       "damping"};
-
-/// A line of a scene: a key and its value.
-struct Assignment {
-  std::string key, value;
-  std::size_t line;  ///< its number in the file
-};
 
 /// The value of a key, without a comment behind it: a number, true or false, or what stands in
 /// quotes. Nothing for any other text: an array, a date, or a quote that is not closed.
@@ -47,29 +71,6 @@ std::optional<std::string_view> read_value(std::string_view text) {
   return value;
 }
 
-/// What a scene file assigns. It is TOML of a flat kind, and is read here: what CLI11 makes of
-/// other TOML differs from version to version.
-std::vector<Assignment> read_scene(const std::string& file) {
-  Lines lines(file);
-  lines.separate_by('\0');
-  std::vector<Assignment> scene;
-  while (lines.next()) {
-    const std::string_view text = trim(lines.text());
-    if (text.empty() || text.front() == '#') continue;
-    const auto equals = text.find('=');
-    const auto value =
-        equals == std::string_view::npos ? std::nullopt : read_value(trim(text.substr(equals + 1)));
-    if (!value)
-      fail(
-          "{}:{}: '{}' is not KEY = VALUE with a number (decimal point, no unit), true, false, or "
-          "a text in quotes",
-          file, lines.number(), shown(text));
-    scene.push_back(
-        {std::string(trim(text.substr(0, equals))), std::string(*value), lines.number()});
-  }
-  return scene;
-}
-
 /// CLI11 takes an operand in brackets for a list of operands. This mark in front of an argument,
 /// which no argument contains, makes it one word.
 constexpr char one_word = '\0';
@@ -82,22 +83,6 @@ std::string without_mark(const std::string& argument) {
 std::string long_name(std::string_view names) {
   return std::string(names.substr(names.find("--") + 2));
 }
-
-/// The options of the body. Their long names are keys of a scene.
-struct BodyOption {
-  const char* names;
-  double Body::*value;
-  double Body::*sigma;
-  Domain domain;
-  const char* help;
-};
-constexpr BodyOption body_options[] = {
-    {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]"},
-    {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]"},
-    {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative, "shape factor K of J = K m R^2"},
-    {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)"},
-    {"--slope", &Body::slope, &Body::sigma_slope, any_number,
-     "rise of the mat in metres per metre of growing x (0)"}};
 
 /// What CLI11 says of an option without a value, or with too many: `--width: 1 required N missing`.
 std::string in_our_words(std::string_view said) {
@@ -147,6 +132,17 @@ std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) 
   return values;
 }
 
+std::size_t value_of_run(std::string_view option, std::size_t values, std::size_t i,
+                         std::size_t runs) {
+  if (values == 1) return 0;
+  if (values != runs)
+    fail<OptionError>(
+        "{} gives {} values for {}: give one for all, or one for each in the order of the runs, "
+        "with decimal points",
+        option, values, counted(runs, "run"));
+  return i;
+}
+
 Tool::Tool(std::string name, const std::string& purpose)
     : name_(std::move(name)), app_(new CLI::App(purpose, name_)) {
   app_->get_formatter()->column_width(help_column);
@@ -163,8 +159,9 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
     for (const std::string& text : texts) try {
         set(without_mark(text));
       } catch (const Error& error) {
-        fail("{}: {}{}", names, error.what(),
-             text.starts_with('=') ? "; a short option takes its value without =" : "");
+        if (text.starts_with('='))
+          fail("{0} takes its value without =: {0} {1}", names.substr(0, 2), shown(text.substr(1)));
+        fail("{}: {}", names, error.what());
       }
     return true;
   };
@@ -177,15 +174,9 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
 }
 
 void Tool::number(const std::string& names, double& value, const Domain& domain,
-                  const std::string& help, double* sigma) {
+                  const std::string& help) {
   add(names, "NUMBER", help,
-      [&value, domain, sigma](const std::string& text) { value = to_number(text, domain, sigma); });
-}
-
-void Tool::numbers(const std::string& names, std::vector<Estimate>& values, const Domain& domain,
-                   const std::string& help) {
-  add(names, "NUMBER,...", help,
-      [&values, domain](const std::string& text) { values = to_numbers(text, domain); });
+      [&value, domain](const std::string& text) { value = to_number(text, domain); });
 }
 
 void Tool::text(const std::string& names, std::string& value, const std::string& type,
@@ -196,11 +187,60 @@ void Tool::text(const std::string& names, std::string& value, const std::string&
   });
 }
 
+void Tool::set(Body& body, const BodyOption& of, const Estimate& x) {
+  body.*of.value = x.value;
+  if (of.sigma) body.*of.sigma = x.sigma;
+  last_body_.*of.value = x.value;
+  if (!(x.value >= of.least && x.value <= of.most))
+    doubts_.push_back(fmt::format(fmt::runtime(of.doubt), x.value, x.value * of.unit));
+}
+
 void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
   body = {not_given, not_given, not_given};
-  for (const auto& [names, value, sigma, domain, help] : body_options)
-    if (std::ranges::find(numbers, value) != numbers.end())
-      number(names, body.*value, domain, help, sigma ? &(body.*sigma) : nullptr);
+  for (const BodyOption& of : body_options)
+    if (std::ranges::find(numbers, of.value) != numbers.end())
+      add(of.names, "NUMBER", of.help, [this, &of, &body](const std::string& text) {
+        Estimate x;
+        x.value = to_number(text, of.domain, of.sigma ? &x.sigma : nullptr);
+        set(body, of, x);
+      });
+}
+
+void Tool::bodies(std::vector<Body>& bodies, std::string& list,
+                  std::initializer_list<double Body::*> numbers, FitOptions& options) {
+  bodies = {{not_given, not_given, not_given}};
+  for (const BodyOption& of : body_options) {
+    if (std::ranges::find(numbers, of.value) == numbers.end()) continue;
+    const auto fitted = std::ranges::find(scene_numbers, of.value, &SceneNumber::value);
+    const bool may_be_fitted = fitted != scene_numbers.end();
+    const auto take = [=, this, &of, &bodies, &list, &options](const std::string& text) {
+      if (may_be_fitted) options.*fitted->is_fitted = text == "fit";
+      if (may_be_fitted && text == "fit") return;
+      const std::vector<Estimate> values = to_numbers(text, of.domain);
+      if (bodies.size() == 1) bodies.resize(values.size(), bodies.front());
+      if (values.size() > 1) list = "--" + long_name(of.names);
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        set(bodies[i], of, values[value_of_run(list, values.size(), i, bodies.size())]);
+    };
+    add(of.names, may_be_fitted ? "NUMBER,...|fit" : "NUMBER,...",
+        fmt::format("{}; one, or one for each run{}", of.help,
+                    may_be_fitted ? "; fit: find one for all runs" : ""),
+        take);
+  }
+}
+
+void Tool::doubt_body() {
+  const double m = last_body_.m;
+  const double R = last_body_.R;
+  const double K = last_body_.K;
+  // A cylinder of iron with this mass is 40 times as long as thick. A cart has a K of about 0.
+  if (K > 0.1 && m > 1e6 * R * R * R)
+    doubts_.push_back(
+        fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}", m, R, m / 1000));
+  if (K > 0 && K < 0.1 && (R == 0.4 || R == 0.5 || R == 1))
+    doubts_.push_back(
+        fmt::format("K = {} and R = {} m: if they are swapped, write -K {} -R {}", K, R, R, K));
+  for (const std::string& doubt : doubts_) warn(doubt);
 }
 
 void Tool::scene() {
@@ -246,18 +286,32 @@ std::string Tool::fixed_values() const {
   return values;
 }
 
+// A scene is TOML of a flat kind, and is read here: what CLI11 makes of other TOML differs from
+// version to version.
 bool Tool::take_scene() {
   if (scene_file_.empty()) return false;
-  for (const auto& [key, value, line] : read_scene(scene_file_)) try {
+  Lines lines(scene_file_);
+  lines.separate_by('\0');
+  while (lines.next()) try {
+      const std::string_view text = trim(lines.text());
+      if (text.empty() || text.front() == '#') continue;
+      const auto equals = std::min(text.find('='), text.size() - 1);
+      const auto value = read_value(trim(text.substr(equals + 1)));
+      if (!value)
+        fail(
+            "'{}' is not KEY = VALUE with a number (decimal point, no unit), true, false, or a "
+            "text in quotes",
+            shown(text));
+      const std::string key(trim(text.substr(0, equals)));
       if (std::ranges::count(keys, key) == 0)
         fail("a scene has no '{}'; it has mass, radius, shape-factor, ...", shown(key));
       CLI::Option* const option = app_->get_option_no_throw("--" + key);
       if (!option || on_command_line(key)) continue;
       if (!in_scene_.insert(key).second) fail("{} is there twice", key);
-      option->add_result(value);
+      option->add_result(std::string(*value));
       option->run_callback();
     } catch (const Error& error) {
-      fail("{}:{}: {}", scene_file_, line, error.what());
+      fail("{}:{}: {}", scene_file_, lines.number(), error.what());
     }
   return scene_file_ == "-";
 }
@@ -292,15 +346,6 @@ void Tool::need(const std::vector<std::string>& options) const {
 void Tool::refuse(std::initializer_list<const char*> options, std::string_view why) const {
   for (const char* option : options)
     if (on_command_line(option)) fail<OptionError>("--{} {}", option, why);
-}
-
-void Tool::doubt_radii() {
-  const CLI::Option* const radius = app_->get_option_no_throw("--radius");
-  if (!radius) return;
-  for (const std::string& text : radius->results())
-    for (const std::string& part : split_names(text, ','))
-      if (Estimate R; parse_estimate(part, R) && R.value > 1)
-        warn(fmt::format("R = {} m: if that is millimetres, write {}", R.value, R.value / 1000));
 }
 
 }  // namespace rolling

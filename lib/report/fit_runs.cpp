@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/history.h"
+#include "cli/law_file.h"
 #include "selection/readings.h"
 
 namespace rolling {
@@ -39,18 +40,6 @@ void warn_of_lost_history(Tool& tool, const std::vector<Run>& runs) {
     if (first != runs.end() && run.filters.empty())
       tool.warn(run.name, "its filters are not known, as those of run " + first->name +
                               " are: the fit goes on as if no filter were known");
-}
-
-/// A number of the body for run i of n.
-Estimate of_run(const std::vector<Estimate>& values, const char* option, std::size_t i,
-                std::size_t n) {
-  if (values.size() > 1 && values.size() != n)
-    fail(
-        "--{} gives {} values for {}: give one for all, or one for each in the order of the runs, "
-        "with decimal points",
-        option, values.size(), counted(n, "run"));
-  if (values.empty()) return {not_given};
-  return values[values.size() > 1 ? i : 0];
 }
 
 }  // namespace
@@ -107,16 +96,10 @@ bool take_pulses(Tool& tool, std::vector<Run>& runs) {
 
 void Bodies::give_to(std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Estimate K = of_run(shape_factors, "shape-factor", i, runs.size());
-    const Estimate R = of_run(radii, "radius", i, runs.size());
-    runs[i].body = body;
-    runs[i].body.K = K.value;
-    runs[i].body.sigma_K = K.sigma;
-    runs[i].body.R = R.value;
-    runs[i].body.sigma_R = R.sigma;
-    if (!begins.empty()) runs[i].x0 = of_run(begins, "x0", i, runs.size()).value;
-    else if (body.road && !runs[i].x.empty()) runs[i].x0 = runs[i].x.front();
-    if (!winds.empty()) runs[i].body.wind = of_run(winds, "wind", i, runs.size()).value;
+    Run& run = runs[i];
+    run.body = all[value_of_run(list, all.size(), i, runs.size())];
+    if (!begins.empty()) run.x0 = begins[value_of_run("--x0", begins.size(), i, runs.size())];
+    else if (run.body.road && !run.x.empty()) run.x0 = run.x.front();
   }
 }
 
@@ -142,12 +125,8 @@ void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs, Geometry geom
   for (const Run& run : runs) {
     std::string others;
     if (run.shift_of) {
-      Body given = run.body;
-      if (!tool.given("gravity")) given.g = not_given;
-      if (!tool.given("slope")) given.slope = not_given;
-      others = other_body(run.shift_of, given);
-      if (geometry == Geometry::exact && run.shift_of->geometry != geometry)
-        add_item(others, "A = 1 (here --exact)");
+      ShiftOf given{run.body, geometry};
+      others = take_contact(tool, *run.shift_of, given);
     } else if (!unused.empty())
       tool.warn(run.name, "not used: " + unused + ": no `##` line says how D was computed");
     if (!others.empty())

@@ -30,15 +30,12 @@ std::vector<Run> read_runs(Tool&, Reader&, Route, bool needs_x = false);
 /// says so, and returns true.
 bool take_pulses(Tool&, std::vector<Run>&);
 
-/// The bodies as the command line gives them: one shape factor, or one for each run, or none; and
-/// so one radius.
+/// What the options give of the runs.
 struct Bodies {
-  Body body = {};  ///< all numbers but K, R and the wind
-  std::vector<Estimate> shape_factors = {};
-  std::vector<Estimate> radii = {};
-  std::vector<Estimate> winds = {};
-  std::vector<Estimate> begins = {};  ///< x0 of runs of speeds on a road
-  std::string height = {};            ///< the file of the road
+  std::vector<Body> all{{}};        ///< one, or one for each run
+  std::string list = {};            ///< the option that has one for each run
+  std::vector<double> begins = {};  ///< x0 of runs of speeds on a road, likewise
+  std::string height = {};          ///< the file of the road
 
   void give_to(std::vector<Run>&) const;
 };
@@ -51,6 +48,17 @@ void warn_of_copies(Tool&, Route, const std::vector<Run>&);
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
 /// others, or it is not known with which.
 void warn_of_unused_body(Tool&, const std::vector<Run>&, Geometry);
+
+/// A number of a row of fitpower, and its column.
+struct Cell {
+  Column column;
+  double value;  ///< NaN for a blank cell
+};
+
+/// Writes the `##` line, the header and the rows, which have the same columns; with names of runs,
+/// these are in a last column.
+void write_table(Output&, const std::string& line, const std::vector<std::vector<Cell>>& rows,
+                 const std::vector<std::string>& runs = {});
 
 /// The route fits: reads rows of fitpower and prints their joint law (statistics/run_laws.h). What
 /// the uncertainties of K, R and g have brought to each row is common to the rows that give the

@@ -92,9 +92,7 @@ class Remarks {
   void make() {
     geometry();
     if (r_.agreement && !r_.agreement->agree())
-      object("", disagreement(*r_.agreement, fit_.runs) +
-                     "; if they rolled in both directions, --slope fit; if bodies differ, a "
-                     "K for each");
+      object("", disagreement(*r_.agreement, fit_.runs) + ways_to_agree());
     if (noisy_) causes();
     const LawForm& law = r_.law.form();
     const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
@@ -115,6 +113,17 @@ class Remarks {
   }
 
  private:
+  /// What may make runs disagree and is not taken into account yet.
+  std::string ways_to_agree() const {
+    std::string ways;
+    if (!options_.fit_slope) ways += "; if they rolled in both directions, --slope fit";
+    const double K = fit_.runs.front().body.K;
+    const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
+    return ways + (std::ranges::any_of(fit_.runs, differs)
+                       ? "; look whether each K stands in the place of its file"
+                       : "; if bodies differ, a K for each");
+  }
+
   /// What spoils the fit.
   void object(const std::string& run, const std::string& text) {
     spoilt_ = true;

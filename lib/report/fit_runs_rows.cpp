@@ -21,8 +21,10 @@ struct FitRows {
   bool b_fixed = false;
 
   /// Throws Error for a row that is none of a fit with errors.
-  void add(std::string name, Estimate a, Estimate b, double corr) {
-    if (!(a.value > 0)) fail("a = {} must be greater than 0", a.value);
+  void add(std::string name, const LawOfFile& row) {
+    const Estimate a = row.coefficients[0];
+    const Estimate b = row.coefficients[1];
+    const double corr = row.correlations[1][0];
     if (a.sigma < 0 || b.sigma < 0 || std::abs(corr) > 1)
       fail("sigma_a, sigma_b or corr is not one of a fit");
     if (a.sigma == 0 && b.sigma == 0) fail("a and b have no errors: were both fixed?");
@@ -59,29 +61,24 @@ FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
   if (in.find("d0")) fail("these are rows of another law: --route fits joins rows of a v^b only");
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
-  const auto a = in.need_as_is("a", "m"), sigma_a = in.need_as_is("sigma_a", "m"),
-             b = in.need_as_is("b"), sigma_b = in.need_as_is("sigma_b"),
-             corr = in.need_as_is("corr");
+  RowsOfFit rows_of_fit(in, laws().front(), true);
   const auto rms = in.want("rms"), n = in.want("n");  // NaN in runs that lack them, as these
   std::vector<std::size_t> sigmas;
   for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
     sigmas.push_back(in.want(number));
   FitRows rows;
-  while (in.next_run()) {
-    const auto name = in.find("run");
+  while (rows_of_fit.next_run()) {
     const std::size_t first = rows.runs.size();
-    ContactsOfRun of_run(in);
-    while (in.next()) {
-      of_run.take_row();
-      rows.add(name ? std::string(in.text(*name)) : in.where(), {in[a], in[sigma_a]},
-               {in[b], in[sigma_b]}, in[corr]);
+    while (rows_of_fit.next()) {
+      const LawOfFile row = rows_of_fit.read();
+      rows.add(row.run.empty() ? in.where() : row.run, row);
       const auto parameters = static_cast<double>(  // what is fixed has no error
           std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
       if (!(in[n] > parameters) || !(in[rms] > 0)) continue;
       rows.laws.back().rms = in[rms];
       rows.laws.back().freedom = in[n] - parameters;
     }
-    const std::vector<ShiftOf> contacts = of_run.contacts();
+    const std::vector<ShiftOf> contacts = rows_of_fit.contacts();
     for (std::size_t i = 0; i < contacts.size(); ++i) rows.runs[first + i].shift_of = contacts[i];
   }
   if (rows.laws.size() < 2)
@@ -115,32 +112,44 @@ std::vector<CommonError> take_common(FitRows& rows) {
   return all;
 }
 
-void write(Output& out, const JointLaw& joint, std::size_t n) {
-  out.names({{"a", "m"},
-             {"sigma_a", "m"},
-             {"b"},
-             {"sigma_b"},
-             {"corr"},
-             {"scatter_ln_a"},
-             {"scatter_b"},
-             {"n"},
-             {"chi2"},
-             {"dof"},
-             {"p"}});
+std::vector<Cell> row_of(const JointLaw& joint, std::size_t n) {
   const Symmetric& C = joint.covariance;
   const double a = std::exp(joint.law.a);
-  for (const double value :
-       {a, a * std::sqrt(C.aa), joint.law.b, std::sqrt(C.bb),
-        C.ab != 0 ? C.ab / std::sqrt(C.aa * C.bb) : 0, joint.scatter_log_a, joint.scatter_b})
-    out.cell(value);
-  out.cell(std::to_string(n));  // a count is never rounded to --digits
-  out.cell(joint.agreement.ratio);
-  out.cell(std::to_string(joint.agreement.dof));
-  out.cell(joint.agreement.p);
-  out.end_line();
+  return {{{"a", "m"}, a},
+          {{"sigma_a", "m"}, a * std::sqrt(C.aa)},
+          {{"b"}, joint.law.b},
+          {{"sigma_b"}, std::sqrt(C.bb)},
+          {{"corr"}, C.ab != 0 ? C.ab / std::sqrt(C.aa * C.bb) : 0},
+          {{"scatter_ln_a"}, joint.scatter_log_a},
+          {{"scatter_b"}, joint.scatter_b},
+          {{"n"}, static_cast<double>(n)},
+          {{"chi2"}, joint.agreement.ratio},
+          {{"dof"}, static_cast<double>(joint.agreement.dof)},
+          {{"p"}, joint.agreement.p}};
 }
 
 }  // namespace
+
+void write_table(Output& out, const std::string& line, const std::vector<std::vector<Cell>>& rows,
+                 const std::vector<std::string>& runs) {
+  out.text("## " + line);
+  out.end_line();
+  std::vector<Column> columns;
+  for (const Cell& cell : rows.front()) columns.push_back(cell.column);
+  if (!runs.empty()) columns.push_back({"run"});
+  out.names(columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const auto& [column, value] : rows[i]) {
+      const bool is_count = column.name == "n" || column.name == "dof";  // not rounded to --digits
+      if (std::isnan(value)) out.cell("");
+      else if (is_count) out.cell(std::to_string(static_cast<std::size_t>(value)));
+      else out.cell(value);
+    }
+    if (!runs.empty()) out.cell(runs[i]);
+    out.end_line();
+  }
+  out.flush();  // the rows stand above the messages
+}
 
 void fit_rows(Tool& tool, const Bodies& bodies) {
   FitRows rows = read_rows(tool);
@@ -159,10 +168,7 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   }
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);
-  tool.out.text("## " + line_of_fit("fits", {}, of_runs));
-  tool.out.end_line();
-  write(tool.out, joint, rows.laws.size());
-  tool.out.flush();
+  write_table(tool.out, line_of_fit("fits", {}, of_runs), {row_of(joint, rows.laws.size())});
   if (!joint.agreement.agree()) tool.object("", disagreement(joint.agreement, rows.runs));
 }
 

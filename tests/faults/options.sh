@@ -15,7 +15,7 @@ for tool in $tools; do
     long=${option##*,}
     names[$long]+="$tool "
     case $type in
-      NUMBER | NUMBER,... | N | 'S|fit')
+      NUMBER | NUMBER,... | 'NUMBER,...|fit' | N)
         for value in "${values[@]}"; do
           [[ $type != NUMBER,* || $value != *' '* ]] || continue  # a list may have blanks around its numbers
           attempt "$tool" "$long" "$value" $operand
@@ -106,8 +106,8 @@ shift-from-accel -R -1 -K 0.5 @|'-1' must be greater than 0
 shift-from-accel -R 1 -K -1 @|'-1' must be 0 or more
 shift-from-accel -R 1 -K 0.5 -g 0 @|'0' must be greater than 0
 shift-from-accel -R 1 -K 0.5 -g -9.81 @|'-9.81' must be greater than 0
-shift-from-accel --exact -R 1 -K 100 @|within the radius
-shift-from-accel --exact -R 1e-300 -K 1e308 @|
+shift-from-accel -q --exact -R 1 -K 100 @|within the radius
+shift-from-accel -q --exact -R 1e-300 -K 1e308 @|
 shift-from-accel -K 0.5 @|neither given nor in a scene: --radius
 shift-from-accel -R 1 @|neither given nor in a scene: --shape-factor
 fitpower --route velocity -K -1 -R 1 @|'-1' must be 0 or more
@@ -147,7 +147,7 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 --sensor pasco --lost 1|from 0 to 
 simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 @|
 energy-ledger -m 0 -K 0.5 -R 0.04 @|'0' must be greater than 0
 energy-ledger -m -1 -K 0.5 -R 0.04 @|'-1' must be greater than 0
-energy-ledger -m 1e308 -K 1e308 -R 0.04 @|not a finite number
+energy-ledger -q -m 1e308 -K 1e308 -R 0.04 @|not a finite number
 energy-ledger -m 1 -K 0.5 -R 0.04 --check -1 @|'-1' must be 0 or more
 energy-ledger -m 1 -K 0.5 -R 0.04 -a 1e-3 @|neither given nor in a scene: --exponent
 smooth /nowhere|/nowhere: No such file or directory

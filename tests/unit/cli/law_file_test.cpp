@@ -70,8 +70,6 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
     const Given one = law_of(row, {half, "1"});
     CHECK((one.status == 2 && one.said.find("neither given nor in a scene") != std::string::npos));
   }
-  const Given none = law_of("a b\n2e-3 0\n", {"-a", "2e-3", "-b", "0"});
-  CHECK(none.said == "tool: --law adds nothing to the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
   CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && std::isnan(bare.file().v0)));
   CHECK(bare.file().contact.body.slope == 0);
@@ -182,7 +180,7 @@ TEST_CASE("law file: the line of fitpower has the body, unless the options have 
   const std::string row = "# a[m]\tb\n1e-3\t0\n";
   CHECK(law_of(line + '\n' + row, {}, false, {}).status == 2);
   CHECK(law_of(line + '\n' + row, {"-K", "1", "-R", "1"}, false, {}).status == 0);
-  for (const char* damaged : {"## fitpower", "## fitpower 1 position K 0.5 R 0.04 g 9.8",
+  for (const char* damaged : {"## fitpower", "## fitpower 1 position K 0.5 R 0.04",
                               "## fitpower 1 position K x R 0.04 g 9.8 slope 0",
                               "## fitpower 1 position R 0.04 K 0.5 g 9.8 slope 0"}) {
     CAPTURE(damaged);

@@ -25,12 +25,20 @@ TEST_CASE("fit_rows: what a number brings to rows is common to those that give i
   tool.input();
   std::vector<std::string> words{"tool", rows.name()};
   std::vector<char*> arguments{words[0].data(), words[1].data(), nullptr};
-  const Estimate cylinder{0.5, 0.006}, shell{0.83, 0.006};
+  Bodies bodies;
+  bodies.all.clear();
+  for (const double K : {0.5, 0.5, 0.83, 0.83}) {
+    Body& body = bodies.all.emplace_back();
+    body.K = K;
+    body.sigma_K = 0.006;
+    body.R = 0.04;
+    body.sigma_R = 0.0002;
+  }
   int status = 0;
   {
     const Redirect to_file(STDOUT_FILENO, printed.name());
     status = tool.run(2, arguments.data(), [&] {
-      fit_rows(tool, {{}, {cylinder, cylinder, shell, shell}, {{0.04, 0.0002}}});
+      fit_rows(tool, bodies);
       return 0;
     });
   }
