@@ -112,6 +112,11 @@ for step in 1.06 1.07; do
   awk -v h="$step" 'BEGIN { print "t v"; print 0, 0; print h, 3; print 2 * h, 9 }' | smooth -q --seconds 2 | sed -n '4p' | cut -f 2
 done | tr '\n' ' ' | grep -qx '4 3 ' || complain 'smooth --seconds: another reach'
 
+# rolling-recipes(7): what a fast roll is worth, by the table of its example, which man-examples.sh runs.
+says man/rolling-recipes.7 'one roll from 0.8 m/s is worth nine from 0.5 m/s'
+awk '/^0\.5 / { slow = $2 } /^0\.8 / { fast = $2 } END { rolls = (slow / fast)^2; exit !(rolls > 8.5 && rolls < 9.5) }' \
+  man/rolling-recipes.7 || complain 'another number of slow rolls is worth a fast one'
+
 # rolling-recipes(7): both directions are one fit, if the speeds of the way back are negative.
 says man/rolling-recipes.7 'if the speeds of the way back are negative'
 for slope in 0.001 -0.001; do
