@@ -89,7 +89,9 @@ balance() {
   else smooth -q -c v -M savgol -w 21 "$1"; fi |
     energy-ledger -m 1 --law "$new/table.txt" --summary --digits 6 --check 0.05 |
     awk -F '\t' -v OFS='\t' -v list="$m" 'BEGIN { n = split(list, m, ",") }
-      !/^#/ && NF { row++; for (i = 1; i <= 3; i++) if ($i != "") $i *= n > 1 ? m[row] : list } { print }'
+      /^#/ { for (i = 1; i <= NF; i++) energy[i] = $i ~ /\[J\]/ }
+      !/^#/ && NF { row++; for (i in energy) if (energy[i] && $i != "") $i *= n > 1 ? m[row] : list }
+      { print }'
 }
 fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" --slope "$slope" "$@"; }
 if [ "$slope" = fit ]; then
