@@ -16,7 +16,7 @@ also=${BASH_SOURCE[0]}
 figures=$(cd "$(dirname "$also")" && pwd)
 samples=${figures%/*}
 . "$samples/script.sh"
-# A script that sources this has said in `takes` which of --slope, --seconds and --at it has too,
+# A script that sources this has said in `takes` which of --slope, --seconds, --at and --by it has too,
 # and in `needs` what has to be said of a body. Its operands are in `files`.
 form=svg K='' R='' m='' slope=${slope-0} at='' column='' law=() use=() run=() of_own='' count=1
 default_slope=$slope
@@ -44,6 +44,7 @@ while getopts t:K:R:m:c:-: option; do
     m) m=$OPTARG ;;
     c) column=$OPTARG ;;
     -slope) slope=$OPTARG ;;
+    -by) by=$OPTARG ;;
     -seconds) seconds=$OPTARG ;;
     -use) use+=(--use "$OPTARG") ;;
     -run) run=(--run "$OPTARG") ;;

@@ -9,7 +9,9 @@
 #   residuals.sh [OPTION]... [FILE]... >residuals.svg      the cylinder on rubber, or runs of your own
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
-takes=slope
+#   --by N             what the law of run number N foretells of the others, in place of their own laws,
+#                      with its 95 % limits; v0 and x0 are those of each run
+takes='slope by' by=''
 . "$(dirname "$0")/draw.sh"
 prepare CR
 fit --route $route rolls
@@ -17,13 +19,23 @@ unit=mm && [ $column = x ] || unit=mm/s
 separate readings readings
 : >note
 : >outliers
+[ -z "$by" ] || { is_count "$by" && [ "$by" -ge 1 ] && [ "$by" -le "$count" ]; } ||
+  wrong "--by $by: a run from 1 to $count"
+[ -z "$by" ] || [ ${#law[@]} = 0 ] || wrong '--by is for the law a v^b'
 for i in $(seq "$count"); do
   body "$i"
   # The roll of the row, from its t0, v0 and x0 on, at the times of the run.
-  simulate ${quiet:+-q} --law "fit$i" "${body[@]}" --at "roll$i" >law
-  columns law $column v >"law$i"
+  roll=(--law "fit$i" --columns x,v) sigma=()
+  if [ "$by" ]; then
+    fitpower -q "${body[@]}" --route $route --fix a="$(columns "fit$by" a)" --fix b="$(columns "fit$by" b)" "roll$i" >own
+    roll=(--law "fit$by" --columns "x,v,sigma_$column" --t0 "$(columns own t0)" --v0 "$(columns own v0)")
+    [ $column = v ] || roll+=(--x0 "$(columns own x0)")
+    sigma=("sigma_$column")
+  fi
+  simulate ${quiet:+-q} "${roll[@]}" "${body[@]}" --at "roll$i" >law
+  columns law $column v ${sigma[@]+"${sigma[@]}"} >"law$i"
   columns "roll$i" t $column | paste - "law$i" | awk -F '\t' 'NR == 1 { way = $4 < 0 ? -1 : 1 }
-    { printf "%s\t%.9g\t%.9g\n", $1, ($4 < 0 ? -$4 : $4), 1e3 * way * ($2 - $3) }' >"residuals$i"
+    { printf "%s\t%.9g\t%.9g\t%.9g\n", $1, ($4 < 0 ? -$4 : $4), 1e3 * way * ($2 - $3), 1960 * $5 }' >"residuals$i"
   # The scatter is the median of |residual|, over 0.6745 that of a normal one.
   scatter=$(awk '{ print ($3 < 0 ? -$3 : $3) }' "residuals$i" | sort -g |
     awk '{ r[NR] = $1 } END { print (r[int((NR + 1) / 2)] + r[int(NR / 2) + 1]) / 2 / 0.6745 }')
@@ -40,6 +52,7 @@ for i in $(seq "$count"); do
           rows, readings, (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }'
   } >>note
 done
+[ -z "$by" ] || printf 'dotted: 95 %% of what the law of run %s foretells\n' "$by" >>note
 printf 'K = %s,  R = %s m' "${K//+-/ ± }" "${R//+-/ ± }" >>note
 [ "$slope" = 0 ] || printf ',  slope %s' "${slope//+-/ ± }" >>note
 lines=$(($(wc -l <note) + 1))
@@ -47,7 +60,7 @@ columns readings t >moments
 title='Residuals of a fit against time and against velocity'
 above=0
 [ "$count" = 1 ] || above=$((20 * (((count < 16 ? count : 16) + 1) / 2)))
-draw 520 $((600 + 18 * lines + above)) "lines = $lines; unit = '$unit'; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
+draw 520 $((600 + 18 * lines + above)) "lines = $lines; unit = '$unit'; by = 0$by; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
 above = count > 1 ? 20*((named + 1)/2) : 0; height = 600.0 + 18*lines + above
 below = (18*lines + 10)/height
 set multiplot layout 2,1 margins 0.16,0.955,below + 54/height,1 - (10 + above)/height spacing 0.11
@@ -57,6 +70,8 @@ most = 2.5*rms
 do for [i=1:count] {
   stats file('residuals', i) using 3 nooutput
   most = max(most, 1.25*max(STATS_max, -STATS_min))
+  stats file('residuals', i) using 4 nooutput
+  most = max(most, 1.1*STATS_max)
 }
 stats 'residuals1' using 1 nooutput; first = STATS_min; last = STATS_max
 stats 'moments' using 1 nooutput
@@ -83,7 +98,9 @@ if (count == 1) {
   set key off
 } else { eval 'set key outside top center '.outside }
 set xlabel 'time t / s'
-eval "plot for [i=1:count] file('residuals', i) using 1:3 with points ls line(i) notitle, ". \
+limits(sign) = by == 0 ? '' : \
+  sprintf("for [i=1:count] file('residuals', i) using 1:(%d*$4) with lines ls line(i) dt 3 notitle, ", sign)
+eval "plot ".limits(1).limits(-1)."for [i=1:count] file('residuals', i) using 1:3 with points ls line(i) notitle, ". \
   "for [i=1:named] keyentry with points ls line(i) title name(i) noenhanced".marks(1)
 unset object; unset label 3; unset label 4; unset label 1
 set xlabel 'velocity v / (m/s)'; set xrange [0:*]; set key off

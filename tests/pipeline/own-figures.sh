@@ -170,6 +170,19 @@ smooth -q --coast -c x -w 1 "$scratch/CR.csv" |
   fitpower -q --route position -K 0.5 -R 0.04 --slope 0.002 | awk '!/^#/ {
     printf "CR:  a = %.3f ± %.3f mm,  b = %.3f ± %.3f\n", 1e3 * $1, 1e3 * $2, $3, $4 }' >"$scratch/said"
 grep -qF "$(cat "$scratch/said")" "$scratch/up.svg" || complain "residuals --slope does not say: $(cat "$scratch/said")"
+# The law of one run foretells another.
+for n in 1 2; do
+  simulate --scene samples/CR.toml --v0 0.$((2 + 3 * n)) --sensor pasco --seed $n >"$scratch/foretold$n.csv"
+done
+samples/figures/residuals.sh -K 0.5 -R 0.04 --by 1 "$scratch"/foretold[12].csv >"$scratch/by.svg" 2>/dev/null ||
+  complain 'residuals --by'
+grep -q 'dotted: 95 % of what the law of run 1 foretells' "$scratch/by.svg" || complain 'residuals --by has no limits'
+[ "$(grep -c "stroke-dasharray" "$scratch/by.svg")" -ge 4 ] || complain 'residuals --by: not four limits'
+for wrong_by in '--by 3' '--by x' '--law d0 --by 1'; do
+  # shellcheck disable=SC2086
+  samples/figures/residuals.sh -K 0.5 -R 0.04 $wrong_by "$scratch"/foretold[12].csv >/dev/null 2>"$scratch/err" &&
+    complain "residuals $wrong_by"
+done
 # What rolled is not guessed.
 for figure in fig4 residuals; do
   samples/figures/$figure.sh -K 0.5 "$scratch/CR.csv" >/dev/null 2>"$scratch/err" && complain "$figure guesses R"
