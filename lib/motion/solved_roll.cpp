@@ -14,8 +14,8 @@
 namespace rolling {
 
 SolvedRoll::SolvedRoll(const Scene& scene, Stepper stepper, unsigned long most_steps)
-    : body_(scene.body), geometry_(scene.geometry), v0_(scene.v0), stepper_(stepper),
-      most_steps_(most_steps) {
+    : body_(scene.body), geometry_(scene.geometry), incline_(incline(body_)), v0_(scene.v0),
+      stepper_(stepper), most_steps_(most_steps) {
   if (v0_ > 0 && v0_ < least_speed)
     fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0_,
          least_speed);
@@ -89,7 +89,7 @@ double IntegratedRoll::floored(double v) const {
 
 void IntegratedRoll::derivative(const double* y, double* dydt) const {
   dydt[0] = y[1];
-  dydt[1] = accelerate(body_, geometry_, floored(y[1])).a;
+  dydt[1] = accelerate(body_, geometry_, floored(y[1]), incline_).a;
 }
 
 void IntegratedRoll::jacobian(const double* y, double* dfdy) const {
@@ -97,13 +97,13 @@ void IntegratedRoll::jacobian(const double* y, double* dfdy) const {
   dfdy[0] = dfdy[2] = dfdy[3] = 0;
   dfdy[1] = 1;
   if (v > floor_)
-    dfdy[3] = accelerate(body_, geometry_, floored(y[1])).by_D * law_.at(v).by_log_v / v;
+    dfdy[3] = accelerate(body_, geometry_, floored(y[1]), incline_).by_D * law_.at(v).by_log_v / v;
 }
 
 double IntegratedRoll::longest_step(const double* y) const {
   const double v = std::max(std::abs(y[1]), floor_);
   if (v == 0) return INFINITY;
-  return v / (2 * std::abs(accelerate(body_, geometry_, floored(y[1])).a));
+  return v / (2 * std::abs(accelerate(body_, geometry_, floored(y[1]), incline_).a));
 }
 
 bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
@@ -116,7 +116,7 @@ bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
   });
   if (!stops) return false;
   const double v = ode.state()[1];
-  const Acceleration now = accelerate(body_, geometry_, law_(v));
+  const Acceleration now = accelerate(body_, geometry_, law_(v), incline_);
   const double exponent = law_.at(v).by_log_v * now.by_D / now.a;
   const double left = creeps_ ? 0 : v / ((1 - exponent) * -now.a);
   ode.restart(ode.time() + left, {ode.state()[0], std::copysign(0, way_on_)});
@@ -174,7 +174,7 @@ void MemoryRoll::derivative(const double* y, double* dydt) const {
   const double z = y[2];
   dydt[0] = v;
   dydt[2] = std::abs(v) * (law_(v) - z) / bulge_.length;
-  dydt[1] = accelerate(body_, geometry_, z + bulge_.damping * dydt[2]).a;
+  dydt[1] = accelerate(body_, geometry_, z + bulge_.damping * dydt[2], incline_).a;
 }
 
 void MemoryRoll::jacobian(const double* y, double* dfdy) const {
@@ -182,7 +182,7 @@ void MemoryRoll::jacobian(const double* y, double* dfdy) const {
   const double z = y[2];
   const double speed = std::abs(v);
   const double dz = speed * (law_(v) - z) / bulge_.length;
-  const double dv_dD = accelerate(body_, geometry_, z + bulge_.damping * dz).by_D;
+  const double dv_dD = accelerate(body_, geometry_, z + bulge_.damping * dz, incline_).by_D;
   const double dz_dv =
       ((1 + law_.b) * std::abs(law_(v)) - std::copysign(1.0, v) * z) / bulge_.length;
   const double dz_dz = -speed / bulge_.length;

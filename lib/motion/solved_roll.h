@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/contact.h"
 #include "motion/scene.h"
 #include "ode/integrator.h"
 
@@ -44,6 +45,7 @@ class SolvedRoll : public Motion, protected OdeSystem {
 
   Body body_;
   Geometry geometry_;
+  Incline incline_;
   double v0_;
   bool at_rest_ = false, turns_ = false;
   std::optional<double> stop_time_;  // 0 and infinity are known from the beginning
