@@ -85,6 +85,23 @@ bool both_ways(const Fitted& found) {
   return false;
 }
 
+/// False for an exponent whose error is no knowledge of a mat; without errors, for one that no mat
+/// has.
+bool is_known(const FitResult& result, std::size_t j, const FitOptions& options) {
+  const LawForm::Coefficient& c = result.law.form().coefficients[j];
+  const bool is_exponent = c.D == 0 && c.v == 0;
+  const auto& [value, sigma] = result.coefficients[j];
+  if (!is_exponent) return true;
+  if (result.errors == Errors::none) return options.b || std::abs(value) <= 10;
+  return sigma <= levels::largest_sigma_b;
+}
+
+bool all_known(const FitResult& result, const FitOptions& options) {
+  for (std::size_t j = 0; j < result.coefficients.size(); ++j)
+    if (!is_known(result, j, options)) return false;
+  return true;
+}
+
 /// Throws Error if the data do not determine the law or the slope of the mat. A slope slows the
 /// body down as the law does: runs in both directions separate them, or a law a v^b that is well
 /// known, but never a constant d0.
@@ -104,28 +121,24 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   const auto shown = [&](const Estimate& c) {
     return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
   };
-  const Estimate first = result.coefficients.front();
   if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
     fail(
         "a wind and the law slow the body down alike, and these runs cannot separate them: add "
         "runs in the other direction, of negative v");
   if (options.fit_slope && !both_ways(found) &&
-      !(has_errors && result.law.power() && !not_visited(0) &&
+      !(has_errors && result.law.power() && all_known(result, options) && !not_visited(0) &&
         !not_visited(form.coefficients.size())))
     fail(
         "a slope of the mat and its law slow the body down alike, and these runs cannot separate "
         "them ({} comes out as {}): add runs in the other direction, of negative v",
-        form.coefficients.front().name, shown(first));
+        form.coefficients.front().name, shown(result.coefficients.front()));
   for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
-    const Estimate& c = result.coefficients[j];
-    const bool is_exponent = form.coefficients[j].D == 0 && form.coefficients[j].v == 0;
-    bool known = !is_exponent || options.b || std::abs(c.value) <= 10;
-    if (has_errors) known = !is_exponent || c.sigma <= levels::largest_sigma_b;
+    bool known = is_known(result, j, options);
     if (const Interval* profile = not_visited(j))
       known = known && (std::isfinite(profile->lower) || std::isfinite(profile->upper));
     if (!known)
       fail<LooseExponent>("the data do not determine {}, which comes out as {}",
-                          form.coefficients[j].name, shown(c));
+                          form.coefficients[j].name, shown(result.coefficients[j]));
   }
 }
 
@@ -173,12 +186,11 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const double rms = rms_of(found);
   require_roll(found);
-  std::vector<Interval> not_visited;
-  const bool of_minimum = !options.robust && (!agreement || agreement->agree());
-  if (of_minimum && noise.kind != Errors::none)
-    not_visited = intervals_not_visited(found, noise, options);
   FitResult of_noise = result_of(found, rms, noise, shares);
-  of_noise.not_visited = not_visited;
+  std::vector<Interval>& not_visited = of_noise.not_visited;
+  const bool of_minimum = !options.robust && (!agreement || agreement->agree());
+  if (of_minimum && noise.kind != Errors::none && all_known(of_noise, options))
+    not_visited = intervals_not_visited(found, noise, options);
   require_determined(of_noise, options, found);
   for (ErrorShare& share :
        shares_of_inputs(route, runs, options, found, !agreement || agreement->agree()))
@@ -216,7 +228,8 @@ FitResult fit(Route route, const std::vector<Run>& runs, const FitOptions& optio
   try {
     return fit_from_start(route, runs, options);
   } catch (const Error&) {  // of the data, or of single readings
-    if (options.robust) throw;
+    const auto is_long = [](const Run& run) { return run.t.size() > long_run; };
+    if (options.robust || std::ranges::any_of(runs, is_long)) throw;
     const OffReadings off = off_robust_roll(route, runs, options);
     if (off.count == 0 || off.count > single) throw;
     fail<ReadingOff>(

@@ -115,9 +115,14 @@ Body Parameters::body(const std::vector<double>& theta, Body given) const {
   return given;
 }
 
+Parameters Parameters::of_runs(std::size_t n) const {
+  Parameters other = *this;
+  other.runs_ = n;
+  return other;
+}
+
 Parameters Parameters::of_one_run() const {
-  Parameters one = *this;
-  one.runs_ = 1;
+  Parameters one = of_runs(1);
   one.asked_ = {};
   return one;
 }

@@ -80,6 +80,8 @@ class Parameters {
   /// The given body with the numbers of the scene that are parameters.
   Body body(const std::vector<double>& theta, Body given) const;
   bool has_x0() const { return position_; }
+  /// The same parameters of so many runs.
+  Parameters of_runs(std::size_t n) const;
   /// The parameters of a single run in a scene that is fixed.
   Parameters of_one_run() const;
   std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/routes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,28 +9,66 @@
 
 namespace rolling {
 
-/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
-/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
-/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
-/// is infinite where none is found.
+namespace {
+
+/// The starts of a search in many runs: of several the one that leads to the smallest minimum in a
+/// few of the runs, with the law that it finds there.
+std::vector<std::vector<double>> narrowed(const Fitted& fit,
+                                          std::vector<std::vector<double>> starts) {
+  constexpr std::size_t few = 8;
+  const std::size_t n = fit.model.runs().size();
+  if (n <= few) return starts;
+  const Parameters of_few = fit.parameters().of_runs(few);
+  const auto at = [](const std::vector<double>& theta, std::size_t i) {
+    return theta.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  const std::size_t own = of_few.own();
+  std::vector<ObservedRun> runs;
+  for (std::size_t k = 0; k < few; ++k) runs.push_back(fit.model.runs()[k * n / few]);
+  const auto noise = noise_of(runs, fit.noise->added());
+  const System system = system_of(Model(std::move(runs), of_few), noise);
+  Minimum best;
+  for (const std::vector<double>& start : starts) {
+    std::vector<double> theta;
+    for (std::size_t k = 0; k < few; ++k) {
+      const std::size_t run = k * n / few;
+      theta.insert(theta.end(), at(start, run * own), at(start, (run + 1) * own));
+    }
+    theta.insert(theta.end(), at(start, n * own), start.end());
+    improve(best, system, theta);
+  }
+  if (!std::isfinite(best.rss)) return starts;
+  std::vector<double>& start = starts.front();
+  start.resize(n * own);
+  start.insert(start.end(), at(best.theta, few * own), best.theta.cend());
+  starts.resize(1);
+  return starts;
+}
+
+}  // namespace
+
 Fitted fit_beside(const Fitted& power, const LawForm& law) {
   Fitted fit{};
   fit.noise = power.noise;
   const double v = power.fastest();
   fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
+  std::vector<std::vector<double>> starts;
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and scene, without a wind
     const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared());
     const auto end = theta.end() - static_cast<std::ptrdiff_t>(power.scene.size());
     theta.insert(theta.erase(first, end), c.begin(), c.end());
-    if (!fit.parameters().fits(place_of_wind)) improve(fit.minimum, fit.system(), theta);
-    else
-      for (const double part : {-0.1, 0.0, 0.1}) {
-        std::vector<double> blown = theta;
-        blown.push_back(part * v / scene_numbers[place_of_wind].unit);
-        improve(fit.minimum, fit.system(), blown);
-      }
+    if (!fit.parameters().fits(place_of_wind)) {
+      starts.push_back(std::move(theta));
+      continue;
+    }
+    for (const double part : {-0.1, 0.0, 0.1}) {
+      starts.push_back(theta);
+      starts.back().push_back(part * v / scene_numbers[place_of_wind].unit);
+    }
   }
+  for (const auto& start : narrowed(fit, std::move(starts)))
+    improve(fit.minimum, fit.system(), start);
   if (was_found(fit)) read_off(fit);
   return fit;
 }

@@ -15,7 +15,10 @@ namespace rolling {
 /// standard errors.
 Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
 
-/// The same; the sum of squares is infinite where none is found.
+/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
+/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
+/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
+/// is infinite where none is found.
 Fitted fit_beside(const Fitted& power, const LawForm&);
 
 /// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
@@ -56,9 +59,15 @@ Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<con
 /// none.
 Fitted fit_of_run(const Fitted& joint, std::size_t run, const FitOptions&);
 
-/// The fit of block means of equal size, at most 4096 of each run, where there are more rows than
-/// that on average and no filter is known; otherwise the fit itself. The means hold what a smooth
-/// law can tell.
+/// A run of more rows is long: a smooth law needs no more, and no single one bends its fit.
+inline constexpr std::size_t long_run = 4096;
+
+/// The runs of a roll as means of blocks, at most long_run of each run, where there are more rows
+/// than that on average; else nothing. The blocks of a run have one size: its means have equal
+/// weights. They hold what a smooth law can tell.
+std::vector<ObservedRun> block_means(const std::vector<ObservedRun>&);
+
+/// The fit of these means; the fit itself where there are none, or a filter is known.
 Fitted of_means(Fitted, const FitOptions&);
 
 /// The sum of squares of model - data in the unit of the fitted column, without weights.

@@ -67,6 +67,23 @@ void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   read_off(fit);
 }
 
+/// Throws Error if the rows leave a coefficient of the law unknown: its standard error at theta,
+/// where coefficients are of order one, is above levels::largest_sigma_b. A search for them would
+/// go on and on along a valley.
+void require_known(const Model& model, const std::shared_ptr<const Noise>& noise,
+                   const std::vector<double>& theta) {
+  const Minimum at = evaluated(system_of(model, noise), theta);
+  const Parameters& q = model.parameters();
+  const double freedom = static_cast<double>(at.f.size()) - static_cast<double>(theta.size());
+  for (std::size_t j = q.own(); j < q.columns() && freedom > 0; ++j) {
+    std::vector<double> unit(q.columns());
+    unit[j] = 1;
+    at.R.solve_transposed(0, unit);
+    if (!(std::sqrt(dot(unit, unit) * at.rss / freedom) <= levels::largest_sigma_b))
+      fail("the run does not determine a law");
+  }
+}
+
 }  // namespace
 
 Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options) {
@@ -77,7 +94,9 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   run.body = all.body(theta, run.body);
   auto noise = noise_of({run}, joint.noise->added());
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
-  return fit_from({own, {all.theta_of_run(theta, r)}}, {std::move(run)}, std::move(noise), options);
+  const std::vector<double> start = all.theta_of_run(theta, r);
+  require_known(Model({run}, own), noise, start);
+  return fit_from({own, {start}}, {std::move(run)}, std::move(noise), options);
 }
 
 Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> rows,
@@ -97,6 +116,9 @@ Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> row
       require_ways(runs, options);
       const auto plain = noise->known() ? observe(route, all, rows, {}, options) : runs;
       guess = first_guess(plain, options);
+      // The means of blocks lead a search of many rows to the minimum, or refuse for all of them.
+      if (auto few = block_means(runs); !few.empty() && !noise->known() && !options.robust)
+        guess->starts.front() = fit_from(*guess, std::move(few), noise, options).minimum.theta;
     }
     if (options.min_speed <= 0) {  // no round follows: frees memory
       responses = {};

@@ -19,6 +19,7 @@ namespace {
 /// The run whose rows are means of blocks of so many of the first n rows; the last may be shorter.
 ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
   ObservedRun thin{run.place, run.body, run.geometry, run.way, run.origin, run.column};
+  thin.x0 = run.x0;
   for (std::size_t i = 0; i < n; i += size) {
     const std::size_t rows = std::min(size, n - i);
     const auto mean = [&](const std::vector<double>& x) {
@@ -199,17 +200,22 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
 
 }  // namespace
 
-Fitted of_means(Fitted fit, const FitOptions& options) {
-  constexpr std::size_t longest = 4096;
-  const auto& runs = fit.model.runs();
-  if (!fit.is_roll() || fit.noise->known() || fit.minimum.f.size() <= longest * runs.size())
-    return fit;
+std::vector<ObservedRun> block_means(const std::vector<ObservedRun>& runs) {
+  std::size_t rows = 0;
+  for (const ObservedRun& run : runs) rows += run.y.size();
   std::vector<ObservedRun> few;
+  if (rows <= long_run * runs.size()) return few;
   for (const ObservedRun& run : runs) {
-    const std::size_t rows = run.t.size();
-    const std::size_t size = (rows + longest - 1) / longest;
-    few.push_back(means(run, rows, size));  // of equal size: the means have equal weights
+    const std::size_t n = run.y.size();
+    few.push_back(means(run, n, (n + long_run - 1) / long_run));
   }
+  return few;
+}
+
+Fitted of_means(Fitted fit, const FitOptions& options) {
+  if (!fit.is_roll() || fit.noise->known()) return fit;
+  std::vector<ObservedRun> few = block_means(fit.model.runs());
+  if (few.empty()) return fit;
   return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
 }
 

@@ -49,6 +49,7 @@ TEST_CASE("first guess: the means of many rows are those of all of them, each on
   simulated::Noise noise(13);
   Run run{};
   run.body = cylinder;
+  run.x0 = 0.25;
   constexpr double step = 2e-4;
   for (int i = 0; i < 10000; ++i) {
     run.t.push_back(step * i);
@@ -57,6 +58,7 @@ TEST_CASE("first guess: the means of many rows are those of all of them, each on
   const Fitted few = of_means(fit_route(Route::velocity, {run}, {}), {});
   const auto& [t, y] = std::tie(few.model.runs()[0].t, few.model.runs()[0].y);
   REQUIRE(t.size() == 3334);  // blocks of three, for 10000 are more than twice 4096
+  CHECK(few.model.runs()[0].x0 == run.x0);
   // A block from t = first to t = last has its mean half way and its number of rows between its
   // neighbours': the blocks end where the next ones begin.
   double end = 0, sum = 0;
