@@ -65,4 +65,17 @@ template <typename Kind = Error, typename... Args>
   throw_formatted<Kind>(text, fmt::make_format_args(args...));
 }
 
+/// What `work` returns. An Error that names no file becomes an InputError at this place, a text
+/// that `place` returns.
+template <typename Place, typename Work>
+auto located(const Place& place, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {
+    fail<InputError>("{}: {}", place(), error.what());
+  }
+}
+
 }  // namespace rolling

@@ -13,38 +13,22 @@
 #include "text/number.h"
 
 namespace rolling {
-
-// Names in comments.
-
 namespace {
-
-bool is_known_name(const std::string& text) { return is_known(read_column(text)); }
 
 /// A comment without the # or ## before it.
 std::string_view without_marks(std::string_view comment) {
   return comment.substr(std::min(comment.find_first_not_of('#'), comment.size()));
 }
 
-/// Leaves out blank names at the end that are too many.
-void fit_end(std::vector<std::string>& names, const UnnamedColumns& columns) {
+/// The names between these separators, 0 for blanks, without blank ones at the end that are too
+/// many.
+Names names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
+  Names found{{}, separator};
+  auto names = split_names(text, separator);
   while (names.size() > columns.count - columns.blank_end && names.back().empty()) names.pop_back();
-}
-
-/// The names of as many columns between these separators, 0 for blanks; none if there are not as
-/// many, or if words between blanks end as in a sentence.
-CommentedNames names_between(char separator, std::string_view text, const UnnamedColumns& columns) {
-  CommentedNames found{split_names(text, separator), {}, separator};
-  auto& names = found.names;
-  fit_end(names, columns);
-  while (names.size() > columns.count && names.front().empty()) names.erase(names.begin());
-  const bool words = separator == '\0';
-  const auto ends_a_phrase = [](const std::string& word) {
-    return !word.empty() && std::string_view(",;:").find(word.back()) != std::string_view::npos;
-  };
-  if (!columns.fit(names.size()) || (words && std::ranges::any_of(names, ends_a_phrase))) return {};
   for (const std::string& name : names) {
     const Column& column = found.columns.emplace_back(read_column(name));
-    const bool article = words && names.size() > 1 && name == "a";  // perhaps
+    const bool article = separator == '\0' && names.size() > 1 && name == "a";  // perhaps
     found.known += !article && (is_known(column) ||
                                 std::ranges::count(columns.before, column.name, &Column::name) > 0);
   }
@@ -55,18 +39,13 @@ CommentedNames names_between(char separator, std::string_view text, const Unname
 /// [cm]`.
 std::vector<Column> words_of(std::string_view line) {
   std::string text(line);
-  for (const char separator : separators) std::ranges::replace(text, separator, ' ');
+  std::ranges::replace_if(text, is_separator, ' ');
   std::vector<Column> words;
   for (std::string& word : split_names(text, '\0')) {
     word.erase(word.find_last_not_of(",;:=") + 1);
     words.push_back(read_column(word));
   }
   return words;
-}
-
-/// True if t, x, v, a or D is a word of the line.
-bool holds_known_name(std::string_view line) {
-  return std::ranges::any_of(words_of(line), is_known);
 }
 
 /// True for a comment of nothing but known quantities, or that gives two of them units. One word
@@ -85,80 +64,21 @@ bool agree(const std::vector<Column>& one, const std::vector<Column>& other) {
   return true;
 }
 
-/// A date or a time of day, in digits: `24/11/2026`, `10:15:00.5`, `2026-11-24T10:15:00Z`.
-bool is_date(std::string_view text) {
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
-         text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos;
+/// A number, or a date or a time of day in digits: `24/11/2026`, `10:15:00.5`,
+/// `2026-11-24T10:15:00Z`.
+bool is_figure(const std::string& text) {
+  return is_number(text) ||
+         (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+          text.find_first_not_of("0123456789+-.:/ TZ") == std::string_view::npos);
 }
 
-}  // namespace
-
-CommentedNames names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
-  std::string_view text = without_marks(comment);
-  text = text.substr(0, text.find_last_not_of(filling) + 1);
-  CommentedNames unknown;
-  for (const char separator : std::string(separators) + '\0') {
-    auto found = names_between(separator, text, columns);
-    if (found.known > 0) return found;
-    if (unknown.names.empty()) unknown = std::move(found);
-  }
-  return unknown;
+/// Whether the fields of a line are the units of as many names in the line above or below it: none
+/// of them is a known name, and two are known units, or one beside names of which one is known.
+bool are_units_of(const std::vector<Column>& names, const std::vector<Column>& fields) {
+  const auto units = std::ranges::count_if(fields, is_unit, &Column::written);
+  return names.size() == fields.size() && std::ranges::none_of(fields, is_known) &&
+         units + std::ranges::any_of(names, is_known) > 1;
 }
-
-const HeadLine* choose_names(std::span<const HeadLine> comments, const UnnamedColumns& columns,
-                             bool first, std::string_view file) {
-  const HeadLine* chosen = nullptr;
-  CommentedNames names;  // in it
-  const auto is_figure = [](const std::string& s) { return is_number(s) || is_date(s); };
-  for (std::size_t i = comments.size(); i-- > 0 && names.known == 0;) {
-    if (comments[i].is_bare() || comments[i].is_history()) continue;
-    CommentedNames found = names_in_comment(comments[i].text, columns);
-    const bool may_be_names =
-        first && !chosen && !found.names.empty() && std::ranges::none_of(found.names, is_figure);
-    if (found.known == 0 && !may_be_names) continue;
-    chosen = &comments[i];
-    names = std::move(found);
-  }
-  if (names.known > 0 && (names.separator == '\t' || names.known == names.names.size()))
-    return chosen;
-  const auto refuse = [&](const HeadLine& comment) {
-    fail<InputError>(
-        "{}:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one "
-        "for each of {}, behind one #; or give the sentence another number of words",
-        file, comment.line, shown(comment.text), counted(columns.count, "column"));
-  };
-  for (const HeadLine& comment : comments) {
-    if (&comment == chosen || comment.is_bare()) continue;
-    const CommentedNames other = names_in_comment(comment.text, columns);
-    const bool may_be_meant = looks_like_names(comment.text) ||
-                              (other.known > comment.is_history() && other.known >= names.known);
-    if (may_be_meant && (!chosen || other.names.empty() || !agree(other.columns, names.columns)))
-      refuse(comment);
-  }
-  const bool article = names.known == 0 && std::ranges::count(names.names, "a") > 0;
-  if (chosen && names.separator == '\0' && (article || !agree(names.columns, columns.before)))
-    refuse(*chosen);
-  return chosen;
-}
-
-bool are_units_of(const std::vector<std::string>& names, const std::vector<std::string>& fields) {
-  const auto units = std::ranges::count_if(fields, is_unit);
-  return names.size() == fields.size() && std::ranges::none_of(fields, is_known_name) &&
-         units + std::ranges::any_of(names, is_known_name) > 1;
-}
-
-void add_unit(Column& column, std::string_view unit, std::string_view place) {
-  const std::string below = bare_unit(unit);
-  if (below.empty()) return;
-  if (!column.unit.empty() && column.unit != below)
-    fail<InputError>("{}: the column '{}' has another unit in the line of units, '{}'", place,
-                     shown(to_text(column)), shown(below));
-  column.unit = below;
-}
-
-// All lines above the first row.
-
-namespace {
 
 /// Refuses a line that begins with a number and has another one, between other separators than
 /// those of the file: it is no heading, and the run would be lost.
@@ -186,6 +106,26 @@ void refuse_two_readings(const std::string& line) {
         shown(line));
 }
 
+/// A line above the first row of a run: a comment, a `##` line, names, units or a line of a
+/// preamble.
+struct HeadLine {
+  std::string text;    // with its marks, if it is a comment
+  std::size_t number;  // in the file
+  Names names = {};    // that it may give the columns
+
+  bool is_bare() const { return !text.starts_with('#'); }
+  bool is_history() const { return rolling::is_history(text); }
+  bool is_comment() const { return !is_bare() && !is_history(); }
+  bool has_names() const { return !names.columns.empty(); }
+};
+
+/// The columns, of which one without a name is c and its number.
+std::vector<Column> with_names(std::vector<Column> columns) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name.empty()) columns[i].name = fmt::format("c{}", i + 1);
+  return columns;
+}
+
 /// The comments and other lines in front of the first row.
 class HeadReader {
  public:
@@ -193,8 +133,7 @@ class HeadReader {
       : lines_(lines), dialect_(dialect), before_(before) {}
 
   Head read(const std::vector<std::string>& order, Sides sides) {
-    const bool found = find_row();
-    if (!found) {
+    if (!find_row()) {
       if (!before_) refuse_without_rows();
       return finish();
     }
@@ -202,36 +141,25 @@ class HeadReader {
     lines_.separate_by(dialect_.separator());
     head_.line = lines_.number();
     const auto fields = dialect_.split(lines_.text());
-    const bool blank_end = fields.size() > 1 && fields.back().text.empty();
-    std::vector<std::string> units;
-    const auto names =
-        take_names({fields.size(), blank_end,
-                    before_ ? before_->layout.runs.front().columns : std::vector<Column>()},
-                   units);
-    if (names.empty() && before_) {
+    row_.count = fields.size();
+    row_.blank_end = fields.size() > 1 && fields.back().text.empty();
+    if (before_) row_.before = before_->layout.runs.front().columns;
+    for (HeadLine& line : above_) line.names = names_in(line);
+    const HeadLine* const header = find_header();
+    head_.named = header;
+    if (header) {
+      take_names(*header, sides);
+    } else if (before_) {
       head_.said = before_->said;
       head_.named = before_->named;
       head_.layout = before_->layout;
-      return finish();
+    } else {
+      if (dialect_.separator() == ',') refuse_two_readings(std::string(lines_.text()));
+      std::vector<Column> columns(row_.count);
+      for (std::size_t i = 0; i < std::min(order.size(), row_.count); ++i)
+        columns[i].name = order[i];
+      head_.layout = Layout::of(with_names(std::move(columns)), sides);
     }
-    head_.named = !names.empty();
-    if (!head_.named && dialect_.separator() == ',')
-      refuse_two_readings(std::string(lines_.text()));
-    std::vector<Column> columns;
-    for (std::size_t i = 0; i < (head_.named ? names.size() : fields.size()); ++i) {
-      if (head_.named) columns.push_back(read_column(names[i]));
-      else columns.push_back({i < order.size() ? order[i] : ""});
-      if (columns.back().name.empty()) columns.back().name = fmt::format("c{}", i + 1);
-      if (i < units.size())
-        add_unit(columns.back(), units[i], fmt::format("{}:{}", lines_.name(), head_.line));
-    }
-    head_.layout = Layout::of(columns, sides);
-    const std::size_t width = fields.size() - (blank_end && names.size() + 1 == fields.size());
-    if (head_.named && (head_.layout.side_by_side() ? width > names.size() : width != names.size()))
-      fail(
-          "{} under a line of {}: begin that with # if it is no header, put quotes around names "
-          "that hold a separator, and make decimal commas points",
-          counted(width, "field"), counted(names.size(), "name"));
     return finish();
   }
 
@@ -280,83 +208,136 @@ class HeadReader {
     return false;
   }
 
-  /// The names in a line above the row.
-  std::vector<std::string> names_of(const HeadLine& line, const UnnamedColumns& columns) const {
-    if (!line.is_bare()) return names_in_comment(line.text, columns).names;
-    const char separator = dialect_.separator();
-    auto names = split_names(line.text, separator);
-    if (separator && names.front().starts_with("# ")) names.front().erase(0, 2);  // quoted
-    return names;
+  Names names_in(const HeadLine& line) const {
+    if (!line.is_bare()) return names_in_comment(line.text, row_);
+    std::string text = line.text;
+    if (dialect_.separator() && text.starts_with("\"# ")) text.erase(1, 2);  // a quoted comment
+    return names_between(dialect_.separator(), text, row_);
   }
 
   /// The header: the last line that is no comment, but for one of units; or a comment where there
   /// is none, or where none has a known name and a comment below has some. Null without one.
-  const HeadLine* find_header(const UnnamedColumns& columns) const {
-    std::vector<std::size_t> bare;
-    for (std::size_t i = 0; i < above_.size(); ++i)
-      if (above_[i].is_bare()) bare.push_back(i);
-    if (bare.size() > 1 && are_units_of(names_of(above_[bare.end()[-2]], columns),
-                                        names_of(above_[bare.back()], columns)))
+  const HeadLine* find_header() const {
+    std::vector<const HeadLine*> bare;
+    for (const HeadLine& line : above_)
+      if (line.is_bare()) bare.push_back(&line);
+    if (bare.size() > 1 && are_units_of(bare.end()[-2]->names.columns, bare.back()->names.columns))
       bare.pop_back();
-    const HeadLine* const last = bare.empty() ? nullptr : &above_[bare.back()];
-    const auto names_columns = [&](const HeadLine& line) {
-      return !line.is_bare() && !line.is_history() &&
-             names_in_comment(line.text, columns).known > 0;
+    const auto has_known_word = [](const HeadLine& line) {
+      return line.is_bare() && std::ranges::any_of(words_of(line.text), is_known);
     };
-    const auto has_name = [](const HeadLine& line) {
-      return line.is_bare() && holds_known_name(line.text);
+    const auto has_known_names = [](const HeadLine& line) {
+      return line.is_comment() && line.names.known > 0;
     };
-    if (last && (std::ranges::any_of(above_, has_name) ||
-                 std::none_of(last, above_.data() + above_.size(), names_columns)))
-      return last;
-    return choose_names(above_, columns, !before_, lines_.name());
+    if (!bare.empty() &&
+        (std::ranges::any_of(above_, has_known_word) ||
+         std::none_of(bare.back(), above_.data() + above_.size(), has_known_names)))
+      return bare.back();
+    return choose_comment();
   }
 
-  /// The names of the columns, empty if there are none here, and the units in a line below them or
-  /// in that above them.
-  std::vector<std::string> take_names(const UnnamedColumns& columns,
-                                      std::vector<std::string>& units) {
-    const HeadLine* const found = find_header(columns);
-    if (!found) return {};
-    const HeadLine header = *found;
+  /// The last comment that has one name for each column, one of them known; in the first head of a
+  /// file, else the last without known names. Null if there is none.
+  const HeadLine* last_comment_with_names() const {
+    const HeadLine* found = nullptr;
+    for (auto line = above_.rbegin(); line != above_.rend(); ++line) {
+      if (!line->is_comment()) continue;
+      if (line->names.known > 0) return &*line;
+      if (!before_ && !found && line->has_names() &&
+          std::ranges::none_of(line->names.columns, is_figure, &Column::written))
+        found = &*line;
+    }
+    return found;
+  }
+
+  /// The same comment. Refuses it, unless tabs separate the names or all are known, if another one
+  /// may be meant, or if words between blanks would move known columns of the run before.
+  const HeadLine* choose_comment() const {
+    const HeadLine* const chosen = last_comment_with_names();
+    const Names names = chosen ? chosen->names : Names();
+    if (names.known > 0 && (names.separator == '\t' || names.known == names.columns.size()))
+      return chosen;
+    for (const HeadLine& other : above_) {
+      if (&other == chosen || other.is_bare()) continue;
+      const std::size_t known = other.names.known;
+      const bool may_be_meant =
+          looks_like_names(other.text) || (known > other.is_history() && known >= names.known);
+      if (may_be_meant &&
+          (!chosen || !other.has_names() || !agree(other.names.columns, names.columns)))
+        refuse_names(other);
+    }
+    const bool article =
+        names.known == 0 && std::ranges::count(names.columns, "a", &Column::written) > 0;
+    if (chosen && names.separator == '\0' && (article || !agree(names.columns, row_.before)))
+      refuse_names(*chosen);
+    return chosen;
+  }
+
+  [[noreturn]] void refuse_names(const HeadLine& comment) const {
+    fail<InputError>(
+        "{}:{}: '{}' may be the names of the columns, or a sentence: put tabs between names, one "
+        "for each of {}, behind one #; or give the sentence another number of words",
+        lines_.name(), comment.number, shown(comment.text), counted(row_.count, "column"));
+  }
+
+  /// Takes the names and the units, in a line below them or in that above them, from the lines.
+  void take_names(HeadLine header, Sides sides) {
     if (header.text.starts_with("# ") && header.text.find('\t') != std::string::npos)
       dialect_.has_points();
-    head_.line = header.line;
+    head_.line = header.number;
     note_sorted_history();
-    auto names = names_of(header, columns);
-    std::size_t first = header.line;  // of the lines that may be one of units
+    std::size_t first = header.number;  // of the lines that may be one of units
     for (const HeadLine& line : above_)
-      if (line.line < header.line && !line.is_history())
-        first = line.text.find(':') == std::string::npos ? line.line : header.line;
+      if (line.number < header.number && !line.is_history())
+        first = line.text.find(':') == std::string::npos ? line.number : header.number;
+    std::vector<Column> units;
     std::erase_if(above_, [&](const HeadLine& line) {
-      if (line.line == header.line) return true;
-      if (line.line < first || !units.empty() || line.is_history()) return false;
-      auto fields = names_of(line, columns);
-      const bool has_units = are_units_of(names, fields);
-      if (has_units) units = std::move(fields);
-      return has_units;
+      if (line.number == header.number) return true;
+      if (line.number < first || !units.empty() || line.is_history() ||
+          !are_units_of(header.names.columns, line.names.columns))
+        return false;
+      units = line.names.columns;
+      return true;
     });
-    fit_end(names, columns);
-    return names;
+    auto columns = with_names(std::move(header.names.columns));
+    for (std::size_t i = 0; i < units.size(); ++i) add_unit(columns[i], units[i].written);
+    const std::size_t names = columns.size();
+    const std::size_t width = row_.count - (row_.blank_end && names + 1 == row_.count);
+    head_.layout = Layout::of(columns, sides);
+    if (head_.layout.side_by_side() ? width > names : width != names)
+      fail(
+          "{} under a line of {}: begin that with # if it is no header, put quotes around names "
+          "that hold a separator, and make decimal commas points",
+          counted(width, "field"), counted(names, "name"));
+  }
+
+  /// Gives a column the unit in a line of units. Refuses one other than that of the name.
+  void add_unit(Column& column, std::string_view unit) const {
+    const std::string below = bare_unit(unit);
+    if (below.empty()) return;
+    if (!column.unit.empty() && column.unit != below)
+      fail<InputError>("{}:{}: the column '{}' has another unit in the line of units, '{}'",
+                       lines_.name(), head_.line, shown(to_text(column)), shown(below));
+    column.unit = below;
   }
 
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the
   /// tools write the names last, and what sorts rows by a column puts `# t` before `##`.
   void note_sorted_history() {
     const auto is_below = [&](const HeadLine& line) {
-      return line.is_history() && line.line > head_.line;
+      return line.is_history() && line.number > head_.line;
     };
     const auto all = std::ranges::count_if(above_, &HeadLine::is_history);
     const auto below = std::ranges::count_if(above_, is_below);
     if (below > 0 && all > 1)
-      above_.push_back({fmt::format("## {}", lines_sorted), above_.back().line});
+      above_.push_back({fmt::format("## {}", lines_sorted), above_.back().number});
   }
 
   [[noreturn]] void refuse_without_rows() const {
     if (const auto bare =
             std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&HeadLine::is_bare));
         bare != above_.rend())
-      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->line,
+      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->number,
                        shown(bare->text));
     if (lines_.name() == "-" && above_.empty())
       fail<InputError>("standard input is empty: did the tool before this one fail?");
@@ -366,7 +347,7 @@ class HeadReader {
   /// The lines that are neither names nor units are comments.
   Head finish() {
     for (HeadLine& line : above_) {
-      note_units(line.text, line.line, head_.said);
+      note_units(line.text, line.number, head_.said);
       if (line.is_history())
         head_.history.emplace_back(trim(std::string_view(line.text).substr(2)));
       std::ranges::replace(line.text, '\n', ' ');
@@ -379,21 +360,38 @@ class HeadReader {
   Dialect& dialect_;
   const Head* before_;
   Head head_;
+  UnnamedColumns row_;
   std::vector<HeadLine> above_;    // the lines above the row, but for blank ones
   std::set<std::ptrdiff_t> tabs_;  // how many each of them has
 };
 
 }  // namespace
 
+Names names_in_comment(std::string_view comment, const UnnamedColumns& columns) {
+  std::string_view text = without_marks(comment);
+  text = text.substr(0, text.find_last_not_of(filling) + 1);
+  const auto ends_a_phrase = [](const Column& word) {
+    return !word.written.empty() && std::string_view(",;:").find(word.written.back()) < 3;
+  };
+  Names unknown;
+  for (const char separator : std::string(separators) + '\0') {
+    Names found = names_between(separator, text, columns);
+    auto& names = found.columns;
+    while (names.size() > columns.count && names.front().written.empty())
+      names.erase(names.begin());
+    const bool fit =
+        names.size() == columns.count || names.size() + columns.blank_end == columns.count;
+    if (!fit || (separator == '\0' && std::ranges::any_of(names, ends_a_phrase))) continue;
+    if (found.known > 0) return found;
+    if (unknown.columns.empty()) unknown = std::move(found);
+  }
+  return unknown;
+}
+
 Head read_head(Lines& lines, Dialect& dialect, const Head* before,
                const std::vector<std::string>& order, Sides sides) {
-  try {
-    return HeadReader(lines, dialect, before).read(order, sides);
-  } catch (const InputError&) {
-    throw;
-  } catch (const Error& error) {
-    fail<InputError>("{}:{}: {}", lines.name(), lines.number(), error.what());
-  }
+  return located([&] { return fmt::format("{}:{}", lines.name(), lines.number()); },
+                 [&] { return HeadReader(lines, dialect, before).read(order, sides); });
 }
 
 }  // namespace rolling

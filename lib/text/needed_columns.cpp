@@ -59,12 +59,10 @@ bool NeededColumns::use_has_numbers() const {
       use_, [](const auto& use) { return is_number(read_column(use.second).name); });
 }
 
-void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said,
-                              std::string place) {
+void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits said) {
   as_read_ = std::move(as_read);
   named_ = named;
   said_ = std::move(said);
-  place_ = std::move(place);
   quantities_.clear();
   for (const Column& column : as_read_) quantities_.push_back(column.name);
   auto served = quantities_;
@@ -73,11 +71,10 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   for (const auto& [quantity, use] : use_) {
     const auto at = take_use(use);
     if (!at)
-      fail<InputError>("{}: --use {}={}: there is no column '{}' among {}", place_, quantity,
-                       shown(use), shown(use), list());
+      fail("--use {}={}: there is no column '{}' among {}", quantity, shown(use), shown(use),
+           list());
     if (use_.contains(served[*at]))
-      fail<InputError>("{}: --use: column {} cannot serve as both {} and {}", place_, *at + 1,
-                       served[*at], quantity);
+      fail("--use: column {} cannot serve as both {} and {}", *at + 1, served[*at], quantity);
     served[*at] = quantity;
   }
   quantities_ = std::move(served);
@@ -123,9 +120,8 @@ void NeededColumns::refuse_other_times(std::size_t column) const {
   if (!named_ || use_.contains("t")) return;
   for (std::size_t i = 0; i < as_read_.size(); ++i)
     if (const auto [one, other] = std::minmax({i, column}); one != other && may_be_time(i))
-      fail<InputError>("{}: columns {}, '{}', and {}, '{}', may both be t; say --use t=N", place_,
-                       one + 1, shown(to_text(as_read_[one])), other + 1,
-                       shown(to_text(as_read_[other])));
+      fail("columns {}, '{}', and {}, '{}', may both be t; say --use t=N", one + 1,
+           shown(to_text(as_read_[one])), other + 1, shown(to_text(as_read_[other])));
 }
 
 /// The column that --use names, by COLUMN or by COLUMN[UNIT], which then is its unit.
@@ -168,8 +164,8 @@ std::optional<std::size_t> NeededColumns::find(std::string_view name) const {
       if (!asked.run.empty() && asked.run != read.run) continue;
     }
     if (found)
-      fail<InputError>("{}: columns {} and {} are both {}; say --use {}=N", place_, *found + 1,
-                       i + 1, asked.name, asked.name);
+      fail("columns {} and {} are both {}; say --use {}=N", *found + 1, i + 1, asked.name,
+           asked.name);
     found = i;
   }
   return found;
@@ -197,21 +193,20 @@ std::string NeededColumns::list() const {
 void NeededColumns::refuse(std::string_view name) const {
   const bool is_time = named_ && quantities_.front() == "t";
   if (as_read_.size() == 1 && !is_time && (name == "t" || name == "v" || name == "x"))
-    fail<InputError>(
-        "{}: one column alone, where t is needed beside x or v: if its rows are at equal times, "
+    fail(
+        "one column alone, where t is needed beside x or v: if its rows are at equal times, "
         "awk '{{ print NR * 0.04, $1 }}' adds t{}",
-        place_, named_ ? "" : "; if this line is a heading, begin it with #");
+        named_ ? "" : "; if this line is a heading, begin it with #");
   for (std::size_t i = 0; i < as_read_.size(); ++i)
     if (as_read_[i].name == name)
-      fail<InputError>("{}: column {} cannot serve as both {} and {}", place_, i + 1,
-                       quantities_[i], name);
+      fail("column {} cannot serve as both {} and {}", i + 1, quantities_[i], name);
   std::string way_out;
   if (const KnownQuantity* asked = known_quantity(name); asked && !asked->appended_by.empty())
     way_out = fmt::format("; {} appends it", asked->appended_by);
   if (!named_) way_out += "; if this line is a heading, begin it with #";
   if (has_use_ && known_quantity(read_column(name).name))
     way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
-  fail<InputError>("{}: there is no column '{}' among {}{}", place_, shown(name), list(), way_out);
+  fail("there is no column '{}' among {}{}", shown(name), list(), way_out);
 }
 
 void NeededColumns::resolve(Needed& needed) {
@@ -230,9 +225,8 @@ void NeededColumns::resolve(Needed& needed) {
   if (first && !as_is) needed.unit = read.unit;
   if (quantity != needed.quantity ||
       (!as_is && !known_quantity(quantity) && read.unit != needed.unit))
-    fail<InputError>("{}: column {} is '{}', and '{}' in the runs before", place_, *found + 1,
-                     shown(to_text({quantity, read.unit})),
-                     shown(to_text({needed.quantity, needed.unit})));
+    fail("column {} is '{}', and '{}' in the runs before", *found + 1,
+         shown(to_text({quantity, read.unit})), shown(to_text({needed.quantity, needed.unit})));
   if (by_unit_.contains(*found) && quantity == needed.name)
     assume(*found, quantity, ", by its unit");
   needed.to_si = conversion(needed);
@@ -286,21 +280,19 @@ void NeededColumns::refuse_unit(const Needed& needed, const Column& meant) const
   const std::string name = shown(to_text(meant));
   const std::string_view measured = measured_by(meant.unit);
   if (known && measured == "an angle" && known->si == "m")
-    fail<InputError>(
-        "{}: column '{}' is an angle, and {} needs a length: multiply it by R first "
+    fail(
+        "column '{}' is an angle, and {} needs a length: multiply it by R first "
         "(rolling-recipes(7))",
-        place_, name, needed.quantity);
+        name, needed.quantity);
   if (known && !measured.empty())
-    fail<InputError>(
-        "{}: column '{}' is {}, and {} needs {}{}", place_, name, measured, needed.quantity,
-        known->in_words,
-        has_use_ ? fmt::format(": say which column it is, --use {}=COLUMN", needed.quantity) : "");
+    fail("column '{}' is {}, and {} needs {}{}", name, measured, needed.quantity, known->in_words,
+         has_use_ ? fmt::format(": say which column it is, --use {}=COLUMN", needed.quantity) : "");
   std::string_view units = known ? known->units : needed.unit;
   if (units.empty()) units = "none";
-  fail<InputError>(
-      "{}: column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
+  fail(
+      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",
-      place_, name, as_is ? needed.name : needed.quantity, shown(meant.unit), units,
+      name, as_is ? needed.name : needed.quantity, shown(meant.unit), units,
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", needed.quantity, needed.column + 1)
                : "");
 }

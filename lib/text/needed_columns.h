@@ -43,11 +43,11 @@ class NeededColumns {
   bool use_has_numbers() const;
 
   /// Finds the columns again among those of the next run. `named`: the file names them. `said`: the
-  /// units in its comments. `place` begins the messages.
-  /// Throws InputError if one is absent, or has another quantity or unit than in the runs before.
-  void begin_run(std::vector<Column> as_read, bool named, SaidUnits said, std::string place);
+  /// units in its comments.
+  /// Throws Error if one is absent, or has another quantity or unit than in the runs before.
+  void begin_run(std::vector<Column> as_read, bool named, SaidUnits said);
   /// Declares a column, as it is in this SI unit; returns its slot, its index in all(). Throws
-  /// InputError like begin_run().
+  /// Error like begin_run().
   std::size_t add(std::string_view name, Kind, std::string_view unit = {});
   const std::vector<Needed>& all() const { return needed_; }
   /// A column of this run must be converted.
@@ -55,7 +55,7 @@ class NeededColumns {
 
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one. Where no name is t, or v or x, the only column in a unit of it serves as it.
-  /// Throws InputError where there are several.
+  /// Throws Error where there are several.
   std::optional<std::size_t> find(std::string_view name) const;
   /// What each column of this run serves as: by --use, by its unit, else its own name.
   const std::vector<std::string>& quantities() const { return quantities_; }
@@ -96,7 +96,6 @@ class NeededColumns {
   std::set<std::size_t> by_unit_;  // the columns that serve as a quantity for their unit alone
   bool named_ = false;
   SaidUnits said_;
-  std::string place_;
 };
 
 }  // namespace rolling

@@ -121,8 +121,8 @@ bool Reader::next_file() {
 }
 
 void Reader::take_head(Head head) {
-  const std::size_t width = head.layout.width;
-  const std::size_t before = head_.layout.width;
+  const std::size_t width = head.layout.width();
+  const std::size_t before = head_.layout.width();
   if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
     fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
                      options_.files.front(),
@@ -156,6 +156,12 @@ std::string Reader::run_name() const {
   return std::string(trim(name));
 }
 
+/// What a refusal of the columns begins with.
+std::string Reader::of_head() const {
+  return run_in_file_ > 1 || !head_.named ? fmt::format("{}:{}", lines_->name(), head_.line)
+                                          : lines_->name();
+}
+
 /// Prepares for the rows of the run whose head has been read.
 void Reader::begin_run() {
   ++run_;
@@ -176,15 +182,18 @@ void Reader::begin_run() {
   }
   for (const std::string& comment : head_.comments)
     if (side_ == 0 || is_history(comment)) comments_.push_back(comment);
-  needed_.begin_run(layout().columns, head_.named, head_.said,
-                    run_in_file_ > 1 || !head_.named
-                        ? fmt::format("{}:{}", lines_->name(), head_.line)
-                        : lines_->name());
+  located([&] { return of_head(); },
+          [&] { needed_.begin_run(layout().columns, head_.named, head_.said); });
   read_needed();
 }
 
+std::optional<std::size_t> Reader::find(std::string_view name) const {
+  return located([&] { return of_head(); }, [&] { return needed_.find(name); });
+}
+
 std::size_t Reader::add(std::string_view name, NeededColumns::Kind kind, std::string_view unit) {
-  const std::size_t slot = needed_.add(name, kind, unit);
+  const std::size_t slot =
+      located([&] { return of_head(); }, [&] { return needed_.add(name, kind, unit); });
   if (kind != NeededColumns::Kind::as_is && needed_.all()[slot].quantity == "t") time_slot_ = slot;
   read_needed();
   return slot;

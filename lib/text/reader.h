@@ -45,7 +45,7 @@ class Reader {
   const std::vector<Column>& columns() const { return needed_.in_output(); }
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one.
-  std::optional<std::size_t> find(std::string_view name) const { return needed_.find(name); }
+  std::optional<std::size_t> find(std::string_view name) const;
   /// Its comments in the output; the history and the line `## run NAME` are among them.
   const std::vector<std::string>& comments() const { return comments_; }
   /// The `##` lines of this run, without the marks.
@@ -133,12 +133,12 @@ class Reader {
   void begin_run();
   bool one_of_several() const;
   bool run_is_named() const;
+  std::string of_head() const;
 
   // Rows.
   bool next_line();
   bool take_plain_line();
   bool are_names(std::string_view comment) const;
-  std::span<const Field> split();
   bool take_fields();
   bool take_row();
   double read(const NeededColumns::Needed&);

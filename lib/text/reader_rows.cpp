@@ -80,18 +80,10 @@ bool Reader::next() {
         left_out_ -= std::exchange(blank_rows_, 0);
         return false;
       }
-      fields_ = split();
+      fields_ = located([&] { return here(); }, [&] { return dialect_.split(lines_->text()); });
     }
     if (take_row()) return row_found_ = true;
     ++left_out_;
-  }
-}
-
-std::span<const Field> Reader::split() {
-  try {
-    return dialect_.split(lines_->text());
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", here(), error.what());
   }
 }
 
@@ -99,7 +91,7 @@ std::span<const Field> Reader::split() {
 /// with runs side by side it may end early. Refuses any other number of fields. False if all that
 /// this run does not share is blank: where no reading follows, beside a longer run, that is no row.
 bool Reader::take_fields() {
-  const std::size_t width = head_.layout.width;
+  const std::size_t width = head_.layout.width();
   const bool side_by_side = head_.layout.side_by_side();
   if (fields_.size() == width + 1 && fields_.back().text.empty()) fields_ = fields_.first(width);
   const std::size_t count = fields_.size();
@@ -154,7 +146,7 @@ double Reader::read_text(const NeededColumns::Needed& needed) {
 
 /// Reads the needed numbers of the row; false if one is missing.
 inline bool Reader::take_row() {
-  fields_changed_ = fields_.size() != head_.layout.width || head_.layout.side_by_side();
+  fields_changed_ = fields_.size() != head_.layout.width() || head_.layout.side_by_side();
   if (fields_changed_ && !take_fields()) return false;
   double* to = values_.data();
   for (const NeededColumns::Needed& needed : needed_.all()) {

@@ -20,7 +20,7 @@ std::string head(std::string_view text, Sides sides = Sides::by_names) {
     all += head.named ? "" : " no names,";
     for (const Column& column : head.layout.runs.front().columns) all += ' ' + to_text(column);
     lines.next();
-    all += fmt::format(" in {} of {}; {}: {}", head.layout.runs.size(), head.layout.width,
+    all += fmt::format(" in {} of {}; {}: {}", head.layout.runs.size(), head.layout.width(),
                        lines.number(), lines.text());
   });
   return message.empty() ? all : message.substr(message.find(':') + 1);

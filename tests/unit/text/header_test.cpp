@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "text/number.h"
 #include "unit/text/files.h"
 
@@ -10,24 +12,48 @@ using namespace rolling;
 
 namespace {
 
-std::string in_brackets(const std::vector<std::string>& names) {
+std::string in_brackets(const std::vector<Column>& columns) {
   std::string text;
-  for (const std::string& name : names) text += '<' + name + '>';
+  for (const Column& column : columns) text += '<' + column.written + '>';
   return text;
 }
 
-/// The names that are chosen among comments on the lines 1, 2, ..., or what refuses them.
-std::string chosen(const std::vector<std::string>& texts, const UnnamedColumns& columns,
+/// A line with a field for each of so many columns.
+std::string line_of(const std::string& field, std::size_t columns) {
+  std::string line = field;
+  for (std::size_t i = 1; i < columns; ++i) line += '\t' + field;
+  return line + '\n';
+}
+
+/// The names that are chosen among comments on the lines 1, 2, ... above the first row or, if not
+/// `first`, above that of a second run; or what refuses them.
+std::string chosen(const std::vector<std::string>& comments, const UnnamedColumns& columns,
                    bool first = true) {
-  std::vector<HeadLine> comments;
-  for (const std::string& text : texts) comments.push_back({text, comments.size() + 1});
+  std::string text;
+  for (const Column& column : columns.before) text += (text.empty() ? "" : "\t") + column.name;
+  if (!first) text += '\n' + line_of("0", columns.count) + '\n';
+  const auto above = std::ranges::count(text, '\n');
+  for (const std::string& comment : comments) text += comment + '\n';
+  text += line_of("0", columns.count - columns.blank_end);
+  if (columns.blank_end) text.insert(text.size() - 1, "\t");
+  const TemporaryFile file(text);
   std::string all;
   const std::string message = refusal([&] {
-    if (const HeadLine* const found = choose_names(comments, columns, first, "f"))
-      all = fmt::format("{} {}", found->line,
-                        in_brackets(names_in_comment(found->text, columns).names));
+    Lines lines(file.name());
+    Dialect dialect;
+    Head head = read_head(lines, dialect, nullptr, {}, Sides::by_names);
+    if (!first) {
+      lines.next();
+      const Head before = head;
+      head = read_head(lines, dialect, &before, {}, Sides::by_names);
+    }
+    const auto line = static_cast<std::ptrdiff_t>(head.line) - above;
+    if (line <= std::ssize(comments))
+      all = fmt::format("{} {}", line, in_brackets(head.layout.runs.front().columns));
   });
-  return message.empty() ? all : message;
+  if (message.empty()) return all;
+  const std::string place = message.substr(file.name().size() + 1);
+  return fmt::format("f:{}{}", std::stol(place) - above, place.substr(place.find(':')));
 }
 
 /// What refuses a comment on this line.
@@ -42,9 +68,9 @@ std::string refused(int line, const std::string& comment, std::size_t columns) {
 
 TEST_CASE("commented names: the names in a comment, and what speaks for them", "[text]") {
   const auto names = [](std::string_view comment, std::size_t width, bool blank_end = false) {
-    const CommentedNames of = names_in_comment(comment, {width, blank_end, {{"w"}}});
+    const Names of = names_in_comment(comment, {width, blank_end, {{"w"}}});
     return fmt::format("{}{}{}", of.separator == '\t' && width > 1 ? "tabs " : "",
-                       of.known ? fmt::format("{} ", of.known) : "", in_brackets(of.names));
+                       of.known ? fmt::format("{} ", of.known) : "", in_brackets(of.columns));
   };
   CHECK(names("# p\tq", 2) == "tabs <p><q>");
   CHECK(names("# p q", 2) == "<p><q>");
@@ -79,7 +105,7 @@ TEST_CASE("commented names: the last comment with known names, else the last wit
   CHECK(chosen({"# Time (s), Velocity (m/s)", "# t v"}, {2}) == "2 <t><v>");
   CHECK(chosen({"# p q", "# 12:30 2"}, {2}) == "1 <p><q>");
   CHECK(chosen({"# p q"}, {2}, false).empty());
-  CHECK(chosen({"# w q"}, {2, false, {{"w"}}}, false) == "1 <w><q>");
+  CHECK(chosen({"# w q"}, {2, false, {{"w"}, {"n"}}}, false) == "1 <w><q>");
   CHECK(chosen({"# t v"}, {3, true}) == "1 <t><v>");
   CHECK(chosen({}, {2}).empty());
   CHECK(chosen({"# t,v"}, {2}) == "1 <t><v>");
@@ -107,7 +133,7 @@ TEST_CASE("commented names: a comment with more known names than the chosen one 
 
 TEST_CASE("commented names: names of columns in a history line are refused", "[text]") {
   for (const char* line :
-       {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v;", "## x,v"})
+       {"## t[s] x[cm]", "##Time (s),Position (cm)", "## t x v", "###w;x;v", "## x,v"})
     CHECK(chosen({"# made by me", line}, {3}) == refused(2, line, 3));
   CHECK(chosen({"## t[ms] n v[m/s] x", "# v Time Monday test"}, {4}) ==
         refused(1, "## t[ms] n v[m/s] x", 4));

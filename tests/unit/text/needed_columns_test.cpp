@@ -26,7 +26,7 @@ std::string output(const Texts& names, const Texts& use = {}, const Texts& wante
   std::string all;
   const std::string message = refusal([&] {
     NeededColumns needed(use, true);
-    needed.begin_run(columns(names), true, {}, "FILE");
+    needed.begin_run(columns(names), true, {});
     for (const std::string& name : wanted) needed.add(name, Kind::needed);
     for (const Column& column : needed.in_output())
       all += (all.empty() ? "" : " ") + to_text(column);
@@ -44,8 +44,8 @@ TEST_CASE("needed columns: a --use that says nothing, or two things, is refused"
               "' is not NAME=COLUMN or NAME=COLUMN[UNIT], with t, x, v, a or D as NAME");
   CHECK(output(file, {"v=2", "v=3"}) == "--use: 'v=3' comes after another for v");
   CHECK(output(file, {"v=2", "Velocity=3"}) == "--use: 'Velocity=3' comes after another for v");
-  CHECK(output(file, {"v=w", "x=2"}) == "FILE: --use: column 2 cannot serve as both v and x");
-  CHECK(output(file, {"v=1"}) == "FILE: column 1 cannot serve as both v and t");
+  CHECK(output(file, {"v=w", "x=2"}) == "--use: column 2 cannot serve as both v and x");
+  CHECK(output(file, {"v=1"}) == "column 1 cannot serve as both v and t");
 }
 
 TEST_CASE("needed columns: what is asked for may have a unit, and the run of the column",
@@ -57,25 +57,25 @@ TEST_CASE("needed columns: what is asked for may have a unit, and the run of the
   CHECK(output(file, {"v=w[cm/s]"}, {"v[cm/s]"}) == "t v_in[km/h] F[N] v[m/s]");
   for (const std::string asked : {"F Run #3", "v Run 2", "Latest: F"}) {
     const std::string none = "there is no column '" + asked + "' among t, v[km/h], F[N], w";
-    CHECK(output(file, {}, {asked}).starts_with("FILE: " + none));
-    CHECK(output(file, {"x=" + asked}) == "FILE: --use x=" + asked + ": " + none);
+    CHECK(output(file, {}, {asked}).starts_with(none));
+    CHECK(output(file, {"x=" + asked}) == "--use x=" + asked + ": " + none);
   }
 }
 
 TEST_CASE("needed columns: --use says which, by name or by number", "[text]") {
   const Texts file = {"t", "v", "v"};
-  CHECK(output(file) == "FILE: columns 2 and 3 are both v; say --use v=N");
+  CHECK(output(file) == "columns 2 and 3 are both v; say --use v=N");
   CHECK(output(file, {"v=2"}) == "t[s] v[m/s] v_in");
   CHECK(output(file, {"v=3"}) == "t[s] v_in v[m/s]");
   CHECK(output(file, {}, {"t"}) == "t[s] v v");  // v is not needed
   // However a column is asked for, it serves as one quantity.
   CHECK(output({"t", "w"}, {"v=w"}, {"w", "2", "v"}) == "t v[m/s]");
   CHECK(output({"t", "v"}, {"x=v"}, {"2"}) == "t x[m]");
-  CHECK(output({"t", "v"}, {"x=v"}, {"v"}) == "FILE: column 2 cannot serve as both x and v");
-  CHECK(output({"t", "w"}, {"v=4"}) == "FILE: --use v=4: there is no column '4' among t, w");
-  CHECK(output({"t", "v"}, {"x=pos"}) == "FILE: --use x=pos: there is no column 'pos' among t, v");
-  CHECK(output({"t", "w"}, {"v=0"}) == "FILE: --use v=0: there is no column '0' among t, w");
-  CHECK(output({"t", "w"}, {"v=1.5"}) == "FILE: --use v=1.5: there is no column '1.5' among t, w");
+  CHECK(output({"t", "v"}, {"x=v"}, {"v"}) == "column 2 cannot serve as both x and v");
+  CHECK(output({"t", "w"}, {"v=4"}) == "--use v=4: there is no column '4' among t, w");
+  CHECK(output({"t", "v"}, {"x=pos"}) == "--use x=pos: there is no column 'pos' among t, v");
+  CHECK(output({"t", "w"}, {"v=0"}) == "--use v=0: there is no column '0' among t, w");
+  CHECK(output({"t", "w"}, {"v=1.5"}) == "--use v=1.5: there is no column '1.5' among t, w");
 }
 
 TEST_CASE("needed columns: --use takes a name as it stands in the file, or as it is printed",
@@ -85,18 +85,18 @@ TEST_CASE("needed columns: --use takes a name as it stands in the file, or as it
                            "Speed (GPS)[km/h]", " Speed (GPS) (km/h)", "3"})
     CHECK(output(file, {"v=" + std::string(name)}) == "t[s] Speed_(OBD)[km/h] v[m/s]");
   CHECK(output(file, {"v=Speed (XYZ)"}) ==
-        "FILE: --use v=Speed (XYZ): there is no column 'Speed (XYZ)' among t[s], "
+        "--use v=Speed (XYZ): there is no column 'Speed (XYZ)' among t[s], "
         "Speed_(OBD)[km/h], Speed_(GPS)[km/h]");
   // Every column by its own name, whatever else has a name that means the same.
   const Texts alike = {"Time", "Time (GPS)", "Speed", "Velocity (m/s)", "v_in"};
   for (std::size_t i = 0; i < alike.size(); ++i) {
     NeededColumns needed({"x=" + alike[i], "D=1"}, true);
     if (i > 0) {
-      needed.begin_run(columns(alike), true, {}, "FILE");
+      needed.begin_run(columns(alike), true, {});
       CHECK(needed.find("x") == i);
     }
     NeededColumns other({}, true);
-    other.begin_run(columns(alike), true, {}, "FILE");
+    other.begin_run(columns(alike), true, {});
     CHECK(other.find(alike[i]) == i);
   }
   CHECK(output({"Speed", "Speed", "t"}, {"v=Speed"}).find("are both v") != std::string::npos);
@@ -106,7 +106,7 @@ TEST_CASE("needed columns: a name that is a unit is that unit, where --use gives
           "[text]") {
   const auto factor = [](const std::string& name, const std::string& quantity) {
     NeededColumns needed({quantity + "=1"}, true);
-    needed.begin_run(columns({name, "other"}), true, {}, "FILE");
+    needed.begin_run(columns({name, "other"}), true, {});
     needed.add(quantity, Kind::needed);
     const Conversion to_si = needed.all().front().to_si;
     CHECK(needed.assumed().empty() != (to_si.multiply == 0));
@@ -122,7 +122,7 @@ TEST_CASE("needed columns: a name that is a unit is that unit, where --use gives
   CHECK(factor("km", "x") == 1000);
   CHECK(factor("m/s", "v") == 1);
   NeededColumns needed({"v=1"}, true);
-  needed.begin_run(columns({"ms", "other"}), true, {}, "FILE");
+  needed.begin_run(columns({"ms", "other"}), true, {});
   needed.add("v", Kind::needed);
   CHECK(needed.assumed() == "v is column 1, 'ms', taken in m/s");
 }
@@ -130,7 +130,7 @@ TEST_CASE("needed columns: a name that is a unit is that unit, where --use gives
 TEST_CASE("needed columns: a choice that no name made is told", "[text]") {
   const auto told = [](const Texts& names, const Texts& wanted) {
     NeededColumns needed({}, true);
-    needed.begin_run(columns(names), true, {}, "FILE");
+    needed.begin_run(columns(names), true, {});
     for (const std::string& name : wanted) needed.add(name, Kind::needed);
     return needed.assumed();
   };
@@ -149,18 +149,18 @@ TEST_CASE("needed columns: a choice that no name made is told", "[text]") {
 
 TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"t[s]", "w[rad/s]"}) ==
-        "FILE: there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
+        "there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
   // The case of letters matters in short names.
-  CHECK(output({"T", "V"}) == "FILE: there is no column 't' among T, V; say --use t=COLUMN");
-  CHECK(output({"t"}, {}, {"n"}) == "FILE: there is no column 'n' among t");
+  CHECK(output({"T", "V"}) == "there is no column 't' among T, V; say --use t=COLUMN");
+  CHECK(output({"t"}, {}, {"n"}) == "there is no column 'n' among t");
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t"}), false, {}, "FILE");
+  needed.begin_run(columns({"t"}), false, {});
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: one column alone, where t is needed beside x or v: if its rows are at equal times, "
+        "one column alone, where t is needed beside x or v: if its rows are at equal times, "
         "awk '{ print NR * 0.04, $1 }' adds t; if this line is a heading, begin it with #");
-  needed.begin_run(columns({"t", "c2"}), false, {}, "FILE");
+  needed.begin_run(columns({"t", "c2"}), false, {});
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "FILE: there is no column 'v' among 2 columns without names; if this line is a heading, "
+        "there is no column 'v' among 2 columns without names; if this line is a heading, "
         "begin it with #, or say --use v=COLUMN");
   CHECK(needed.add("x", Kind::wanted) == 0);  // may be absent
   CHECK(needed.all()[0].column == NeededColumns::no_column);
@@ -172,7 +172,7 @@ TEST_CASE("needed columns: a unit that the tools do not read is not taken for SI
   CHECK(output({"t", "w_km/h"}, {}, {"w_km/h"}) == "t w_km/h");  // no quantity
   const Texts file = {"t (moments)", "v (bananas)"};
   CHECK(output(file, {"v=2[m/s]"}) ==
-        "FILE: column 't[moments]' cannot serve as t: its unit 'moments' is not one of those known "
+        "column 't[moments]' cannot serve as t: its unit 'moments' is not one of those known "
         "(s, sec, ms, us, ns, min, h); convert it first (rolling-recipes(7)) or say --use "
         "'t=1[UNIT]'");
   CHECK(output(file).ends_with("or say --use 't=1[UNIT]'"));
@@ -193,26 +193,26 @@ TEST_CASE("needed columns: the order of the calls does not change the names", "[
 
 TEST_CASE("needed columns: the next run may have other places and units", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, {}, "FILE");
+  needed.begin_run(columns({"t", "v[km/h]", "n[pebble]"}), true, {});
   const auto v = needed.add("v", Kind::needed), n = needed.add("n", Kind::needed);
   CHECK(needed.all()[v].to_si(72) == 20);
   CHECK(needed.converts());
-  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, {}, "FILE:9");
+  needed.begin_run(columns({"v", "n[pebble]", "t"}), true, {});
   CHECK(needed.all()[v].column == 0);
   CHECK(needed.all()[n].column == 1);
   CHECK_FALSE(needed.converts());
-  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, {}, "FILE:5");
+  needed.begin_run(columns({"v[km/h]", "n[pebble]"}), true, {});
   CHECK(needed.converts());
   CHECK(refusal([&] {
-          needed.begin_run(columns({"v", "n[stone]"}), true, {}, "FILE:9");
-        }) == "FILE:9: column 2 is 'n[stone]', and 'n[pebble]' in the runs before");
-  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, {}, "FILE:9"); }) ==
-        "FILE:9: there is no column 'n' among v");
+          needed.begin_run(columns({"v", "n[stone]"}), true, {});
+        }) == "column 2 is 'n[stone]', and 'n[pebble]' in the runs before");
+  CHECK(refusal([&] { needed.begin_run(columns({"v"}), true, {}); }) ==
+        "there is no column 'n' among v");
 }
 
 TEST_CASE("needed columns: a column as it is has no unit of its quantity", "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"a[mm]", "v[km/h]"}), true, {}, "FILE");
+  needed.begin_run(columns({"a[mm]", "v[km/h]"}), true, {});
   const auto a = needed.add("a", Kind::as_is, "m");
   CHECK(needed.all()[a].to_si(3) == 3e-3);
   CHECK(to_text(needed.in_output()[0]) == "a[mm]");
@@ -230,10 +230,10 @@ TEST_CASE("needed columns: the names of a file without names end where --use say
 TEST_CASE("needed columns: one that is wanted, and absent from a later run, converts nothing",
           "[text]") {
   NeededColumns needed({}, true);
-  needed.begin_run(columns({"t", "x[cm]"}), true, {}, "FILE");
+  needed.begin_run(columns({"t", "x[cm]"}), true, {});
   needed.add("x", Kind::wanted);
   CHECK(needed.converts());
-  needed.begin_run(columns({"t"}), true, {}, "FILE:5");
+  needed.begin_run(columns({"t"}), true, {});
   CHECK_FALSE(needed.converts());
   CHECK(to_text(needed.in_output()[0]) == "t");
 }

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/head.h"
 
-#include "base/error.h"
 #include "unit/text/files.h"
+#include "unit/text/rows.h"
 #include "unit/catch.h"
 
 using namespace rolling;
 
 namespace {
 
-std::string with_unit(std::string_view name, std::string_view unit) {
-  Column column = read_column(name);
-  const std::string message = refusal([&] { add_unit(column, unit, "f:2"); });
-  return message.empty() ? to_text(column) : message;
+/// The first of two columns, v and one of this name above this unit; or what refuses the unit.
+std::string with_unit(const std::string& name, const std::string& unit) {
+  std::string all;
+  const std::string message =
+      refusal([&] { all = names(name + "\tv\n" + unit + "\tm/s\n0\t1\n"); });
+  return message.empty() ? all.substr(0, all.rfind(' ')) : anonymous(message);
 }
 
 }  // namespace
 
 TEST_CASE("unit lines: the line below the names is one of units", "[text]") {
-  CHECK(are_units_of({"t", "x"}, {"s", "furlong"}));
-  CHECK(are_units_of({"Zeit", "Weg"}, {"[s]", "(cm)"}));
-  CHECK_FALSE(are_units_of({"Zeit", "Weg"}, {"s", "furlong"}));
-  CHECK_FALSE(are_units_of({"t", "x"}, {"t", "cm"}));
-  CHECK_FALSE(are_units_of({"t", "x", "v"}, {"s", "cm"}));
+  CHECK(names("t\tx\ns\tfurlong\n0\t1\n") == "t[s] x[furlong]");
+  CHECK(names("Zeit\tWeg\n[s]\t(cm)\n0\t1\n") == "Zeit[s] Weg[cm]");
+  CHECK(names("Zeit\tWeg\ns\tfurlong\n0\t1\n") == "s furlong");
+  CHECK(names("t\tx\nt\tcm\n0\t1\n") == "t cm");
+  CHECK_THROWS_AS(names("t\tx\tv\ns\tcm\n0\t1\t2\n"), Error);
 }
 
 TEST_CASE("unit lines: a column gets the unit below its name", "[text]") {
@@ -34,7 +36,7 @@ TEST_CASE("unit lines: a column gets the unit below its name", "[text]") {
   CHECK(with_unit("x[cm]", "") == "x[cm]");
   CHECK(with_unit("x[cm]", "(cm)") == "x[cm]");
   CHECK(with_unit("x[cm]", "mm") ==
-        "f:2: the column 'x[cm]' has another unit in the line of units, 'mm'");
+        "FILE:1: the column 'x[cm]' has another unit in the line of units, 'mm'");
 }
 
 TEST_CASE("unit lines: a unit that looks like the label of a run is still the unit", "[text]") {
