@@ -65,8 +65,8 @@ bool begins_with_error_value(std::string_view line) {
 }  // namespace
 
 Lines::Lines(std::string name)
-    : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(space(buffer_, block)),
-      at_(kept_), end_(kept_) {
+    : name_(std::move(name)), fd_(open_for_reading(name_)), kept_(buffer_.data()), at_(kept_),
+      end_(kept_) {
   if (fd_ < 0) fail<InputError>("{}: {}", name_.empty() ? "''" : name_, std::strerror(errno));
 #ifdef F_SETPIPE_SZ
   // A larger pipe lets the tools of a chain wait less for each other. Failure does no harm.
@@ -85,15 +85,15 @@ bool Lines::fill() {
   const std::size_t size = ahead().size();  // of the line so far
   if (size >= longest_line)
     fail<InputError>("{}:{}: a line of more than {} bytes", name_, count_ + 1, longest_line);
-  if (kept_ != buffer_.data())
-    set_end(buffer_, std::copy(kept_, std::as_const(buffer_).end(), buffer_.data()));
-  char* const to = space(buffer_, block);
-  const ssize_t count = read_some(fd_, to, std::min(block, longest_line - size));
+  const auto in_use = static_cast<std::size_t>(end_ - kept_);
+  std::memmove(buffer_.data(), kept_, in_use);
+  buffer_.resize(in_use + block);
   kept_ = buffer_.data();
-  at_ = to - size;
-  end_ = to;
+  end_ = kept_ + in_use;
+  at_ = end_ - size;
+  const ssize_t count =
+      read_some(fd_, buffer_.data() + in_use, std::min(block, longest_line - size));
   if (count < 0) fail<InputError>("{}: {}", name_, std::strerror(errno));
-  set_end(buffer_, to + count);
   end_ += count;
   return count > 0;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "text/bytes.h"
 #include "text/delimiters.h"
+#include "text/number.h"
 
 namespace rolling {
 

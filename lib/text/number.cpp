@@ -46,17 +46,12 @@ bool is_missing(std::string_view field) {
                            (field[2] | 32) == 'n');
 }
 
-char* write_number(char* to, double value, int digits) {
+void append_number(Bytes& to, double value, int digits) {
   if (digits > 0) {
-    char* const end =
-        std::to_chars(to, to + longest_number, value, std::chars_format::general, digits).ptr;
-    if (std::abs(value) < 1e308 || is_number({to, end})) return end;
+    const std::string rounded = fmt::format("{:.{}g}", value, digits);
+    if (std::abs(value) < 1e308 || is_number(rounded)) return to.append(rounded);
   }
-  return write_shortest(to, value);
-}
-
-char* write_shortest(char* to, double value) {
-  return fmt::format_to(to, FMT_COMPILE("{}"), value);
+  fmt::format_to(fmt::appender(to), FMT_COMPILE("{}"), value);
 }
 
 std::string lower(std::string_view text) {

@@ -2,6 +2,8 @@
 // Numbers as text, with an uncertainty (0.50+-0.005) or without: reading and writing.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -35,11 +37,13 @@ inline bool is_whole(std::string_view text) {
 /// True for a missing reading: an empty field, or NaN in upper or lower case.
 bool is_missing(std::string_view field);
 
-/// Writes the shortest text that reads back to the same double, or `digits` significant digits if
-/// digits > 0 and they are not beyond the largest double. Returns the end of the text, which has at
-/// most longest_number characters.
-char* write_number(char* to, double value, int digits = 0);
-inline constexpr std::size_t longest_number = 32;
+/// Text that grows at its end.
+using Bytes = fmt::memory_buffer;
+
+/// Appends the shortest text that reads back to the same double and, of several that short, the one
+/// closest to it, in the form of fmt's "{}": 0.001, 1.5, 1e-04, 1e+16. Or `digits` significant
+/// digits, if digits > 0 and they are not beyond the largest double. The value is finite.
+void append_number(Bytes& to, double value, int digits = 0);
 
 /// `text` as a message shows it: printable ASCII only, at most 40 characters.
 std::string shown(std::string_view text);
@@ -72,10 +76,5 @@ bool parse_estimate(std::string_view text, Estimate& estimate);
 
 /// The shortest text that reads back to the same numbers: `0.5+-0.005`, or `0.5` if sigma is 0.
 std::string to_text(const Estimate&);
-
-/// Writes the shortest text that reads back to the same double and, of several that short, the one
-/// closest to it, in the form of fmt's "{}": 0.001, 1.5, 1e-04, 1e+16. The value is finite.
-/// Returns the end of the text, at most 24 bytes behind `to`.
-char* write_shortest(char* to, double value);
 
 }  // namespace rolling

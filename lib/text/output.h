@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "text/bytes.h"
 #include "text/column.h"
 #include "text/delimiters.h"
 #include "text/number.h"
@@ -38,11 +37,10 @@ class Output {
   // These append to the current line.
   void text(std::string_view text) { buffer_.append(text); }
   void text(char c) { buffer_.push_back(c); }
-  Bytes& line() { return buffer_; }
   /// Throws Error for a number that is not finite.
   void number(double value) {
     require_finite(value);
-    set_end(buffer_, write_number(space(buffer_, longest_number), value, digits));
+    append_number(buffer_, value, digits);
   }
   /// Appends the next cell of a tab-separated row.
   void cell(double value) {

@@ -3,7 +3,6 @@
 // names in each head, converts them to SI units, and passes all other text through.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "text/bytes.h"
 #include "text/clock.h"
 #include "text/dialect.h"
 #include "text/head.h"
@@ -95,10 +93,10 @@ class Reader {
     const std::string_view line = lines_->text();
     const std::string_view field =
         column < fields_.size() ? fields_[column].text : line.substr(line.size());
-    const char* const begin = line.data();
-    char* const place = std::copy(begin, field.data(), space(to, line.size()));
-    set_end(to, std::copy(field.data() + field.size(), begin + line.size(), place));
-    return static_cast<std::size_t>(field.data() - begin);
+    const auto place = static_cast<std::size_t>(field.data() - line.data());
+    to.append(line.substr(0, place));
+    if (place + field.size() < line.size()) to.append(line.substr(place + field.size()));
+    return place;
   }
   /// The comments between the previous row and the present one; after the last row of a run,
   /// those up to the end of the run.

@@ -76,7 +76,7 @@ void RowPipe::join_rows() {
   for (std::size_t count = 1; next_row(); ++count) {
     ahead_ = in_.time() != joined_->time;
     if (ahead_) return;
-    set_end(texts_, texts_.end() - lines_.back().size);
+    texts_.resize(texts_.size() - lines_.back().size);
     lines_.pop_back();
     --read_;
     sum += in_[replaced_];
@@ -145,14 +145,12 @@ void RowPipe::write_comments() {
 /// Writes a row with its numbers, which are finite, at this place of its text.
 inline void RowPipe::write_row(std::string_view text, std::size_t place,
                                std::span<const double> numbers) {
-  char* to = space(out_.line(), text.size() + numbers.size() * (1 + longest_number));
-  to = std::copy_n(text.begin(), place, to);
+  out_.text(text.substr(0, place));
   for (const double number : numbers) {
-    if (!appended_.empty()) *to++ = '\t';
-    to = write_number(to, number, out_.digits);
+    if (!appended_.empty()) out_.text('\t');
+    out_.number(number);
   }
-  set_end(out_.line(),
-          std::copy(text.begin() + static_cast<std::ptrdiff_t>(place), text.end(), to));
+  if (place < text.size()) out_.text(text.substr(place));
   out_.end_line();
 }
 
@@ -189,8 +187,9 @@ void RowPipe::write_rows() {
   if (2 * first_ >= lines_.size()) {  // amortised, each line is moved at most once
     lines_.erase(lines_.begin(),
                  lines_.begin() + static_cast<std::ptrdiff_t>(std::exchange(first_, 0)));
-    set_end(texts_,
-            std::copy(texts_.data() + std::exchange(front_, 0), texts_.end(), texts_.data()));
+    const std::size_t left = texts_.size() - front_;
+    std::copy_n(texts_.data() + std::exchange(front_, 0), left, texts_.data());
+    texts_.resize(left);
   }
   writing_ = false;
 }

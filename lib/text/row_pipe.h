@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "text/bytes.h"
+#include "text/number.h"
 #include "text/output.h"
 #include "text/reader.h"
 

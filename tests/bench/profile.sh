@@ -24,7 +24,7 @@ by_part='
 /rolling::(Reader|Lines|Input|Dialect|Layout)|read_runs|memchr/ { part = "reading" }
 /rolling::(RowPipe|Output)|mem(move|cpy)|Writer::/ { part = "writing" }
 /read_number|read_any_number|rolling::.*divide|from_chars/ { part = "parsing" }
-/write_number|write_shortest|eight_digits|to_decimal|fmt::/ { part = "formatting" }
+/append_number|eight_digits|to_decimal|fmt::/ { part = "formatting" }
 { sum[part] += n; sum["all"] += n }
 END { for (p in sum) print p, sum[p] }'
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// parse_number against the grammar of rolling-columns(5), written out, and strtod; write_number
+// parse_number against the grammar of rolling-columns(5), written out, and strtod; append_number
 // against parse_number.
 #include "text/number.h"
 
@@ -40,8 +40,9 @@ std::uint64_t bits(double x) {
 }
 
 std::string written(double value, int digits) {
-  char text[rolling::longest_number];
-  return {text, rolling::write_number(text, value, digits)};
+  rolling::Bytes text;
+  rolling::append_number(text, value, digits);
+  return fmt::to_string(text);
 }
 
 }  // namespace

@@ -14,11 +14,10 @@
 
 namespace {
 
-using rolling::write_shortest;
-
 std::string written(double value) {
-  char text[32];
-  return {text, write_shortest(text, value)};
+  rolling::Bytes text;
+  rolling::append_number(text, value);
+  return fmt::to_string(text);
 }
 
 /// The digits of a number without sign, point, exponent and zeros around them.

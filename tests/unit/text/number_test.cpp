@@ -21,8 +21,9 @@ using namespace rolling;
 namespace {
 
 std::string written(double value, int digits = 0) {
-  char text[longest_number];
-  return {text, write_number(text, value, digits)};
+  Bytes text;
+  append_number(text, value, digits);
+  return fmt::to_string(text);
 }
 
 bool same_bits(double x, double y) {
