@@ -116,7 +116,8 @@ std::string Tool::told(const Error& error) const {
     text = replace_all(text, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
   if (has("slope") && given("slope"))
     text = replace_all(
-        text, {{"up a slope and back: --slope fit", "towards falling x their speeds are below 0"}});
+        text, {{"up a slope and back: --slope fit",
+                "rolls in both directions tell a slope, speeds towards falling x are below 0"}});
   return text;
 }
 

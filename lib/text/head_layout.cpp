@@ -45,14 +45,13 @@ std::vector<Column> without_other_labels(std::vector<Column> line,
 
 /// Refuses a quantity that occurs fewer times than t: it is not clear to which t it belongs.
 void refuse_unclear(const std::vector<Column>& line, bool labelled) {
-  const auto counts = [&](const std::string& name) {
-    return std::ranges::count_if(
-        line, [&](const Column& c) { return c.name == name && (!labelled || !c.run.empty()); });
-  };
-  const auto times = counts("t");
+  std::map<std::string, std::size_t> count;  // of a name
+  for (const Column& c : line)
+    if (!labelled || !c.run.empty()) ++count[c.name];
+  const std::size_t times = count["t"];
   if (times < 2) return;
   for (const Column& c : line)
-    if (is_known(c) && (labelled ? c.run.empty() && c.name != "t" : counts(c.name) < times))
+    if (is_known(c) && (labelled ? c.run.empty() && c.name != "t" : count[c.name] < times))
       fail("of {} columns t, which one {} goes with is not clear: say --use t=N, by number", times,
            c.name);
 }
@@ -62,22 +61,20 @@ void refuse_unclear(const std::vector<Column>& line, bool labelled) {
 Layout Layout::of(const std::vector<Column>& named, Sides sides) {
   const auto labels = labels_of_runs(named);
   const auto line = without_other_labels(named, labels);
-  const auto count = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::ranges::count(line, name, &Column::name));
-  };
+  std::map<std::string, std::size_t> count, seen;  // of a name
+  for (const Column& column : line) ++count[column.name];
   std::size_t all = 1;
   if (sides == Sides::by_names)
-    all = labels.empty() ? std::max<std::size_t>(count("t"), 1) : labels.size();
+    all = labels.empty() ? std::max<std::size_t>(count["t"], 1) : labels.size();
   if (all > 1) refuse_unclear(line, !labels.empty());
   Layout layout{std::vector<Run>(all), std::vector<bool>(line.size())};
   for (std::size_t r = 0; r < std::min(all, labels.size()); ++r) layout.runs[r].label = labels[r];
-  std::map<std::string, std::size_t> seen;  // of a name
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Column& column = line[i];
     std::optional<std::size_t> own;  // the run that it belongs to; none if to every one
     if (const auto label = std::ranges::find(labels, column.run); label != labels.end())
       own = static_cast<std::size_t>(label - labels.begin());
-    else if (labels.empty() && count(column.name) > 1) own = seen[column.name]++;
+    else if (labels.empty() && count[column.name] > 1) own = seen[column.name]++;
     layout.shared[i] = !own;
     for (std::size_t r = 0; r < all; ++r)
       if (!own || r == std::min(*own, all - 1)) {

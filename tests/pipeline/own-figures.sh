@@ -27,7 +27,7 @@ simulate --scene samples/CR.toml --exact --dt 0.04 --columns t,x >"$scratch/own"
 awk '/^#/ { print; next } { print $1 "\t" (-$2) }' "$scratch/own" >"$scratch/own-mirrored"
 for figure in fig2 fig3 fig5; do
   for run in own own-mirrored; do
-    for at in 0 0.5; do
+    for at in 0.1 0.5; do
       # shellcheck disable=SC2086  # words
       samples/figures/$figure.sh $body --at $at "$scratch/$run" >"$scratch/one.svg" 2>"$scratch/said" || complain "$figure of $run: $?"
       samples/figures/$figure.sh --at $at >"$scratch/scene.svg"

@@ -18,6 +18,7 @@ measured='-m 1.375+-0.001 -R 0.0400+-0.00005 -r 0.0100+-0.00002 -w 0.0500+-0.000
 pulls() {
   local seed body
   for seed in $(seq 25); do
+    rm -f "$scratch"/*-fall.csv "$scratch"/*-spin.csv
     "$1" make "$scratch" "$seed"
     for body in cylinder:0.50 shell:0.83; do
       # shellcheck disable=SC2086  # options
@@ -41,6 +42,7 @@ pulls "$scratch/wrong.sh" | awk '{ squares += $1^2 } END { exit !(squares > 200)
   { echo "a radius that is wrong is not noticed"; exit 1; }
 
 # Milliseconds and degrees are converted, in any place, with decimal commas too: the same K.
+rm -f "$scratch"/*-fall.csv "$scratch"/*-spin.csv
 samples/shape-factor.sh make "$scratch" 1
 fall=$scratch/cylinder-fall.csv spin=$scratch/cylinder-spin.csv
 # shellcheck disable=SC2086

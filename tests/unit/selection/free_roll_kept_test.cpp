@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "base/error.h"
 #include "unit/catch.h"
 #include "unit/signal/through.h"
 
@@ -65,4 +68,11 @@ TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is 
   std::vector<Sample> run;
   for (int i = 0; i < 60; ++i) run.push_back({1.0 * i, 80.0 - i / 3});
   CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
+}
+
+TEST_CASE("free_roll: it takes ten rows", "[signal]") {
+  std::vector<Sample> run;
+  for (int i = 0; i < 10; ++i) run.push_back({0.04 * i, 0.5 - 0.02 * i});
+  CHECK_NOTHROW(free_roll(run, false));
+  CHECK_THROWS_AS(free_roll(std::span(run).subspan(0, 9), false), Error);
 }

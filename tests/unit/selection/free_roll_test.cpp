@@ -330,13 +330,6 @@ TEST_CASE("free_roll: rest, noise alone and a handful of runs have none", "[sign
     }
 }
 
-TEST_CASE("free_roll: it takes ten rows", "[signal]") {
-  std::vector<Sample> run;
-  for (int i = 0; i < 10; ++i) run.push_back({0.04 * i, 0.5 - 0.02 * i});
-  CHECK_NOTHROW(free_roll(run, false));
-  CHECK_THROWS_AS(free_roll(std::span(run).subspan(0, 9), false), Error);
-}
-
 TEST_CASE("free_roll: a run that begins in mid-roll keeps its beginning, with noise too",
           "[signal]") {
   int kept = 0;
