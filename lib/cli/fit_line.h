@@ -12,6 +12,20 @@
 
 namespace rolling {
 
+/// A number in the line.
+struct Word {
+  const char* name;
+  double Body::*value;
+  double Body::*sigma;                    ///< nullptr for one without an uncertainty
+  bool FitOptions::*is_fitted = nullptr;  ///< the rows then have it
+};
+inline constexpr Word words_of_body[] = {
+    {"K", &Body::K, &Body::sigma_K},
+    {"R", &Body::R, &Body::sigma_R},
+    {"g", &Body::g, &Body::sigma_g},
+    {"slope", &Body::slope, &Body::sigma_slope, &FitOptions::fit_slope},
+    {"wind", &Body::wind, nullptr, &FitOptions::fit_wind}};
+
 /// The line of fitpower above its rows: `fitpower VERSION ROUTE [LAW] K 0.5+-0.005 R 0.04 g 9.81
 /// slope 0 [wind 0] [exact]`, with a list where the runs differ, and `slope fit` where the slope is
 /// in the rows. Without the numbers if those of a run are not known.
