@@ -75,11 +75,13 @@ place() {
 }
 # A folder of this run, $scratch, which is removed when it ends, as is what was not placed. Nothing else
 # is.
+# A tool that ends at the same moment may leave one more file there: then again.
+remove_scratch() { rm -rf "$scratch" ${placed:+"$placed"}; }
 make_scratch() {
   trap '' INT TERM HUP  # not before the folder has its name
   scratch=$(mktemp -d) && [ -d "$scratch" ] || wrong 'mktemp makes no folder: see TMPDIR'
   placed=''
-  trap 'rm -rf "$scratch" ${placed:+"$placed"}' EXIT
+  trap 'remove_scratch 2>/dev/null || { sleep 0.2; remove_scratch; }' EXIT
   trap 'exit 130' INT TERM HUP
   case $scratch in /*) ;; *) scratch=$PWD/$scratch ;; esac
 }

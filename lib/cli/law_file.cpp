@@ -291,6 +291,13 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
     const auto v = in.need("v");
     laws.push_back({.law = read_table<TableLaw>(in, file, v, in.need("D")), .contact = given});
   } else laws = read_rows(tool, in, file, given, with_errors);
+  const auto adds = [&](const LawOfFile& law) {
+    return std::ranges::any_of(roll_numbers, [&](const RollNumber& number) {
+      return !std::isnan(law.*number.value) && !tool.on_command_line(number.name);
+    });
+  };
+  if (replaced && in.history().empty() && std::ranges::none_of(laws, adds))
+    fail<OptionError>("--law adds nothing to the command line: leave it out");
   for (LawOfFile& law : laws) {
     if (replaced) law.law = options.power;
     if (std::isnan(law.contact.body.K) || std::isnan(law.contact.body.R))

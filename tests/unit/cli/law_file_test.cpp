@@ -70,6 +70,8 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
     const Given one = law_of(row, {half, "1"});
     CHECK((one.status == 2 && one.said.find("neither given nor in a scene") != std::string::npos));
   }
+  const Given none = law_of("a b\n2e-3 0\n", {"-a", "2e-3", "-b", "0"});
+  CHECK(none.said == "tool: --law adds nothing to the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
   CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && std::isnan(bare.file().v0)));
   CHECK(bare.file().contact.body.slope == 0);
