@@ -26,12 +26,6 @@ inline constexpr Word words_of_body[] = {
     {"slope", &Body::slope, &Body::sigma_slope, &FitOptions::fit_slope},
     {"wind", &Body::wind, nullptr, &FitOptions::fit_wind}};
 
-/// The line of fitpower above its rows: `fitpower VERSION ROUTE [LAW] K 0.5+-0.005 R 0.04 g 9.81
-/// slope 0 [wind 0] [exact]`, with a list where the runs differ, and `slope fit` where the slope is
-/// in the rows. Without the numbers if those of a run are not known.
-std::string line_of_fit(const std::string& route, const FitOptions&,
-                        const std::vector<std::optional<ShiftOf>>& of_runs);
-
 /// The contact of each of so many rows in the words `K 0.5 R 0.04,0.05 g 9.81 [slope S] [wind W]
 /// [exact]`; NaN for a slope and a wind that are in the rows. Empty if they are of more runs than
 /// rows, nothing for other words.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Apart from reading: it needs the table of laws, and with it GSL, which most tools do without.
-#include "cli/fit_line.h"
+#include "cli/fit_line_written.h"
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -9,6 +8,7 @@
 #include <span>
 
 #include "base/version.h"
+#include "cli/fit_line.h"
 #include "text/column.h"
 #include "text/number.h"
 

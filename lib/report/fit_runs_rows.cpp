@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cli/fit_line.h"
+#include "cli/fit_line_written.h"
 #include "cli/law_file.h"
 #include "contact/body.h"
 #include "statistics/run_laws.h"

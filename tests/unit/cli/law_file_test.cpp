@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/fit_line.h"
+#include "cli/fit_line_written.h"
 #include "unit/catch.h"
 #include "unit/text/files.h"
 
