@@ -129,11 +129,7 @@ Table read_table(Reader& in, const std::string& file, std::size_t x, std::size_t
       all_x.push_back(in[x]);
       all_y.push_back(in[y]);
     }
-  try {
-    return {std::move(all_x), std::move(all_y)};
-  } catch (const Error& error) {
-    fail<InputError>("{}: {}", file, error.what());
-  }
+  return located([&] { return file; }, [&] { return Table(std::move(all_x), std::move(all_y)); });
 }
 
 }  // namespace
@@ -293,7 +289,8 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
   } else laws = read_rows(tool, in, file, given, with_errors);
   const auto adds = [&](const LawOfFile& law) {
     return std::ranges::any_of(roll_numbers, [&](const RollNumber& number) {
-      return !std::isnan(law.*number.value) && !tool.on_command_line(number.name);
+      return !std::isnan(law.*number.value) && tool.has(number.name) &&
+             !tool.on_command_line(number.name);
     });
   };
   if (replaced && in.history().empty() && std::ranges::none_of(laws, adds))

@@ -109,8 +109,8 @@ class RowsOfFit {
 /// command line replace the law of a row together. `given` is what the options give of the body,
 /// where K and R may be NaN; the row completes it, and where it has other numbers than are given,
 /// a line says so. Columns with units are converted to SI. `with_errors`: a row needs its
-/// uncertainties. Throws Error for any other file, for rows of several laws, and for a body without
-/// K or R.
+/// uncertainties. Throws Error for any other file, for rows of several laws, for a body without K
+/// or R, and for rows that add nothing to the command line.
 std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const ShiftOf& given,
                                  bool with_errors = false);
 

@@ -15,7 +15,9 @@ struct Incline {
   double cos, tan;
   double sin() const { return cos * tan; }
 };
-inline Incline incline(const Body& c) { return {1 / std::hypot(1, c.slope), c.slope}; }
+inline Incline incline(const Body& c) {
+  return {c.slope == 0 ? 1 : 1 / std::hypot(1, c.slope), c.slope};
+}
 
 /// The same on body.road at x, for a body with the speed v: the curvature k, positive in a hollow,
 /// adds k v^2/g to cos theta. Throws Error outside of the table, and where the body leaves the
