@@ -16,7 +16,10 @@ namespace {
 
 /// The numbers of a fit at another theta.
 std::vector<FittedNumber> numbers_at(const Fitted& fit, const std::vector<double>& theta) {
-  Fitted there{.minimum = {theta}, .model = fit.model};
+  // In two statements: where memory fails in the second part of an aggregate, g++ 12 destroys the
+  // first part twice.
+  Fitted there{.minimum = {theta}};
+  there.model = fit.model;
   read_off(there);
   return there.numbers();
 }

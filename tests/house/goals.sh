@@ -50,7 +50,9 @@ for goal in $goals; do
       done ;;
     lab-rates)
       run lab-rates
-      [ "$(sed 1d build/lab-rates.txt | cut -f 3-)" = $'1\t0\t0\n1\t0\t0\n1\t1\t1\n1\t1\t1' ] || complain "$(cat build/lab-rates.txt)" ;;
+      # One folder does not say whether 1 % is found: a good one passes, from 2 % on a run is named.
+      awk -F '\t' '/^#/ { next } { rows++ } $2 == 0 && $4 > 0 || $2 >= 2 && ($4 < $3 || $5 < $3) { exit 1 }
+        END { if (rows != 4) exit 1 }' build/lab-rates.txt || complain "$(cat build/lab-rates.txt)" ;;
     extremes)
       python3 -c 'import mpmath' 2>/dev/null || continue
       run extremes
