@@ -171,13 +171,9 @@ mutate: check
 short = $(if $(SHORT),$1,$2)
 
 # The long form of the tests of numbers, memory and packages.
-check-long: check
+check-long:
+	LONG=1 $(MAKE) check
 	PATH="$$PWD/bin:$$PATH" build/unit '[.long]'
-	LONG=1 build/unit
-	LONG=1 tests/faults/memory.sh
-	LONG=1 tests/install/deb.sh
-	PATH="$$PWD/bin:$$PATH" LONG=1 tests/house/portable.sh
-	LONG=1 tests/install/reproducible.sh
 
 # How often the errors of fitpower hold, by case and route: 1000 simulated runs each. Then what it
 # says of runs with one thing wrong, and which law it finds. Some 20 minutes of two processors.

@@ -31,7 +31,7 @@ for tool in $tools; do
       refused "$operands" 'standard output: Broken pipe'
       tried=$((tried + 6))
       if preloads; then
-        FAULT_WRITE=1 LD_PRELOAD=$PWD/build/shim.so attempt $operands
+        FAULT_WRITE=1 LD_PRELOAD=$shim attempt $operands
         cmp -s "$scratch/out" "$scratch/whole" ||
           complain "$operands: other output through short and interrupted writes"
       fi

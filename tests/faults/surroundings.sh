@@ -23,7 +23,7 @@ for tool in $tools; do
     attempt $run - < <(while IFS= read -r line; do printf '%s' "${line:0:9}"; printf '%s\n' "${line:9}"; done <"$scratch/good")
     same "$tool from a slow writer, numbers split"
     if preloads; then
-      FAULT_READ=1 LD_PRELOAD=$top/build/shim.so attempt $run - <"$scratch/good"
+      FAULT_READ=1 LD_PRELOAD=$shim attempt $run - <"$scratch/good"
       same "$tool, one byte a read and interrupted"
     fi
     for locale in C.UTF-8 de_DE.UTF-8 nowhere; do
@@ -76,7 +76,7 @@ if preloads; then
       attempt ${command[$tool]} "$scratch/denormal"
       accepted "$tool of denormal numbers"
       mv "$scratch/out" "$scratch/whole"
-      FAULT_DENORMALS=1 LD_PRELOAD=$top/build/shim.so attempt ${command[$tool]} "$scratch/denormal"
+      FAULT_DENORMALS=1 LD_PRELOAD=$shim attempt ${command[$tool]} "$scratch/denormal"
       same "$tool where denormal numbers were 0"
     }
   done

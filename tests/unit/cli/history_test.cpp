@@ -331,7 +331,7 @@ TEST_CASE("history: damaged at random, it gives a fit or a refusal", "[cli][fit]
   const char* const words[] = {"1e308",  "-1", "nan",   "999999999", "0",    "x",
                                "v",      "a",  "D",     "width",     "3",    "seconds",
                                "1e-300", "K",  "exact", "",          "\x80", "coast"};
-  const unsigned runs = of_many(4000);
+  const unsigned runs = of_many(2000);
   std::size_t fitted = 0, refused = 0;
   for (unsigned k = 0; k < runs; ++k) {
     Run run = shifts(k % 3 ? 5 + any(30) : 2 + any(5));

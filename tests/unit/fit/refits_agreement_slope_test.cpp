@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"
+#include "unit/many.h"
 
 using namespace rolling;
 using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
@@ -65,8 +66,11 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
   simulated::Noise noise(36);
   FitOptions options;
   options.fit_slope = true;
-  int a = 0, b = 0, told = 0;
-  for (int k = 0; k < 80; ++k) {
+  const unsigned sets = of_many(80);
+  unsigned a = 0;
+  unsigned b = 0;
+  unsigned told = 0;
+  for (unsigned k = 0; k < sets; ++k) {
     std::vector<Run> runs;
     for (const double way : {1, 1, 1, 1, 1, 1, 1, -1})
       runs.push_back(roll({felt.a * (1 + noise(0.02)), felt.b}, 1e-3, way, noise));
@@ -78,10 +82,10 @@ TEST_CASE("agreement: the errors allow for scatter from run to run beside a slop
     told += !r.agreement->agree();
   }
   CAPTURE(a, b);
-  CHECK(told == 80);
-  for (int covered : {a, b}) {
-    CHECK(covered >= 69);  // fewer of 95 % by chance in 0.1 %
-    CHECK(covered <= 79);
+  CHECK(told == sets);
+  for (const unsigned covered : {a, b}) {
+    CHECK(covered >= at_least(sets, 0.95));
+    CHECK(covered <= at_most(sets, 0.95));
   }
 }
 
@@ -147,8 +151,10 @@ TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted",
   FitOptions options;
   options.fit_slope = true;
   constexpr double slope = 1e-3;
-  int held = 0, near = 0;
-  for (int k = 0; k < 40; ++k) {
+  const unsigned sets = of_many(40);
+  unsigned held = 0;
+  unsigned near = 0;
+  for (unsigned k = 0; k < sets; ++k) {
     std::vector<Run> runs;
     for (const double way : {1, -1, 1, -1})
       runs.push_back(roll({rubber.a * (1 + noise(0.03)), rubber.b}, slope, way, noise));
@@ -168,6 +174,6 @@ TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted",
     held += std::abs(six.scene[0]->value - slope) < 1.96 * six.scene[0]->sigma;
     near += std::abs(six.scene[0]->value - four.scene[0]->value) < 2 * four.scene[0]->sigma;
   }
-  CHECK(near >= 38);
-  CHECK(held >= 32);  // of 38: fewer by chance in 0.3 %
+  CHECK(near >= at_least(sets, 0.97));
+  CHECK(held >= at_least(sets, 0.95));
 }

@@ -6,6 +6,7 @@
 #include "bench/studies.h"
 #include "unit/catch.h"
 #include "unit/fit/rolls.h"
+#include "unit/many.h"
 
 using namespace rolling;
 using rolls::cylinder, rolls::felt, rolls::roll, rolls::rubber;
@@ -165,9 +166,10 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
 
 TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree",
           "[fit][many]") {
-  const int alarms = studies::disagreements(rubber, 2, 0, 1000, 31);
-  CHECK(alarms >= 2);  // fewer or more by chance in 0.05 % and 0.07 %
-  CHECK(alarms <= 21);
+  const unsigned pairs = of_many(1000);
+  const unsigned alarms = static_cast<unsigned>(studies::disagreements(rubber, 2, 0, pairs, 31));
+  CHECK(alarms <= at_most(pairs, 0.01));
+  CHECK(alarms >= at_least(pairs, 0.01));
 }
 
 // Six rows leave two degrees of freedom, or three where b is held.
@@ -206,20 +208,24 @@ TEST_CASE("agreement: the chance is that of the law with which the runs agree be
 TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to disagree",
           "[fit][many]") {
   simulated::Noise noise(44);
-  int alarms = 0;
-  for (int k = 0; k < 200; ++k) {
+  const unsigned sets = of_many(200);
+  unsigned alarms = 0;
+  for (unsigned k = 0; k < sets; ++k) {
     FitOptions options;
     if (k % 2) options.b = felt.b;
     alarms += !fit(Route::position, short_rolls(40, noise), options).agreement->agree();
   }
-  CHECK(alarms <= 7);  // more by chance in 0.1 %
+  CHECK(alarms <= at_most(sets, 0.01));
 }
 
 TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit][many]") {
   for (const auto& [law, count] : {std::pair(felt, 4), std::pair(rubber, 6)}) {
     simulated::Noise noise(33);
-    int a = 0, b = 0, told = 0;
-    for (int k = 0; k < 200; ++k) {
+    const unsigned sets = of_many(200);
+    unsigned a = 0;
+    unsigned b = 0;
+    unsigned told = 0;
+    for (unsigned k = 0; k < sets; ++k) {
       std::vector<Run> runs;
       for (int i = 0; i < count; ++i)
         runs.push_back(roll({law.a * (1 + noise(0.02)), law.b}, 0, 1, noise));
@@ -229,10 +235,10 @@ TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fi
       told += !r.agreement->agree();
     }
     CAPTURE(count, a, b);
-    CHECK(told == 200);
-    for (int covered : {a, b}) {
-      CHECK(covered >= 178);  // fewer of 95 % by chance in 0.02 %
-      CHECK(covered <= 198);  // more by chance in 0.04 %
+    CHECK(told == sets);
+    for (const unsigned covered : {a, b}) {
+      CHECK(covered >= at_least(sets, 0.95));
+      CHECK(covered <= at_most(sets, 0.95));
     }
   }
 }

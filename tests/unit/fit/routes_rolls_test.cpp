@@ -5,6 +5,7 @@
 #include "fit/fitted.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
+#include "unit/many.h"
 
 using namespace rolling;
 
@@ -46,11 +47,11 @@ TEST_CASE("cusps: no exponent that is held fits speeds better than the one that 
           "[fit][many]") {
   simulated::Noise noise(46);
   for (const double b : {-0.6, -0.3, -0.05, 0.0, 0.2})
-    for (int k = 0; k < 40; ++k) {
+    for (unsigned k = 0; k < of_many(40); ++k) {
       const Run run = speeds(b, noise, k % 2 ? 5e-3 : 2e-2);
       CAPTURE(b, k);
       CHECK(lower_by_another_exponent(Route::velocity, run) < 0.1);
-      if (k < 10) {
+      if (k < of_many(10)) {
         Run shifts = simulated::shifts(cylinder, run.t, run.v, 5);
         shifts.body = cylinder;
         CHECK(lower_by_another_exponent(Route::shift, shifts) < 0.1);
@@ -63,7 +64,7 @@ TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit][many]")
   simulated::Noise noise(47);
   FitOptions options;
   options.fit_slope = true;
-  for (int k = 0; k < 20; ++k) {
+  for (unsigned k = 0; k < of_many(20); ++k) {
     Run up = speeds(-0.3, noise, 5e-3), down = speeds(-0.3, noise, 5e-3);
     for (double& v : down.v) v = -v;
     const Fitted found = fit_route(Route::velocity, {up, down}, options);

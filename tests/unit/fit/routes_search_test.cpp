@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
+#include "unit/many.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +17,17 @@ using namespace rolling;
 // loss alone, 3 of 150 end at the echoes, with an rms of ten times the noise, and 8 find no end.
 TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes", "[fit][many]") {
   constexpr double noise = 3e-4;
-  constexpr int n = 20, runs = 150;
+  constexpr int n = 20;
+  const unsigned runs = of_many(150);
   const Body body{1, 0.04, 0.5};
   const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.5);
   const double stop = std::pow(0.5, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
   simulated::Noise random(31);
   std::mt19937 echo;  // with the seed of the standard: the same echoes in each run
   const auto share = [&] { return static_cast<double>(echo()) * 0x1p-32; };
-  int found = 0, covered = 0;
-  for (int k = 0; k < runs; ++k) {
+  unsigned found = 0;
+  unsigned covered = 0;
+  for (unsigned k = 0; k < runs; ++k) {
     Run run;
     run.body = body;
     for (int i = 0; i < n; ++i) {
@@ -39,7 +42,7 @@ TEST_CASE("fit: a robust fit of 20 positions finds the law beside false echoes",
     covered += std::abs(r.b - 0.215) < 1.96 * r.sigma_b;
   }
   CHECK(found == runs);
-  CHECK(covered >= 0.86 * runs);  // of 0.93: fewer by chance in 0.3 %
+  CHECK(covered >= at_least(runs, 0.93));
 }
 
 // With the median of all rows for their scale a noisier run is an outlier as a whole: of these
@@ -49,8 +52,9 @@ TEST_CASE("fit: a robust joint fit of runs of different noise, in either order",
   const std::pair<int, double> sizes[] = {{100, 1e-4}, {12, 3e-3}, {80, 1e-3}};
   FitOptions options;
   options.robust = true;
-  int covered = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  const unsigned sets = of_many(20);
+  unsigned covered = 0;
+  for (unsigned seed = 1; seed <= sets; ++seed) {
     simulated::Noise random(seed);
     std::vector<Run> runs;
     for (const auto& [n, noise] : sizes) {
@@ -70,7 +74,7 @@ TEST_CASE("fit: a robust joint fit of runs of different noise, in either order",
     CHECK(std::abs(one.b - other.b) < 1e-5 * one.sigma_b);
     covered += std::abs(one.b - 0.215) < 1.96 * one.sigma_b;
   }
-  CHECK(covered >= 16);  // of 19: fewer by chance in 0.3 %
+  CHECK(covered >= at_least(sets, 0.95));
 }
 
 // The median of 30 sizes scatters by a fifth. Were it the scale of its run, 30 of these fits would
@@ -80,8 +84,9 @@ TEST_CASE("fit: robust joint fits of runs of one noise are not said to have seve
   FitOptions options;
   options.robust = true;
   simulated::Noise noise(31);
-  int uneven = 0;
-  for (int k = 0; k < 40; ++k) {
+  const unsigned sets = of_many(40);
+  unsigned uneven = 0;
+  for (unsigned k = 0; k < sets; ++k) {
     std::vector<Run> runs;
     for (int r = 0; r < 20; ++r) {
       const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.3 + 0.02 * r);
@@ -94,7 +99,7 @@ TEST_CASE("fit: robust joint fits of runs of one noise are not said to have seve
     }
     uneven += fit(Route::position, runs, options).errors == Errors::uneven;
   }
-  CHECK(uneven <= 3);  // more of 40 at 1 % by chance in 0.1 %
+  CHECK(uneven <= at_most(sets, 0.01));
 }
 
 // The sign of x is that of the direction from the sensor: nothing but signs may depend on it.
@@ -105,8 +110,9 @@ TEST_CASE("fit: a robust fit of mirrored positions is the mirrored fit", "[fit]"
   simulated::Noise noise(32);
   FitOptions options;
   options.robust = true;
-  int fitted = 0;
-  for (int k = 0; k < 150; ++k) {
+  const unsigned runs = of_many(150);
+  unsigned fitted = 0;
+  for (unsigned k = 0; k < runs; ++k) {
     const auto truth = simulated::roll(body, 1.87e-3, 0.215, 0.2 + 0.6 * share());
     const double stop = std::pow(truth.v0, 1 - 0.215) / ((1 - 0.215) * 1.87e-3 * truth.c);
     Run run, mirrored;
@@ -134,5 +140,5 @@ TEST_CASE("fit: a robust fit of mirrored positions is the mirrored fit", "[fit]"
     CHECK(std::abs(one->a - other->a) < 1e-4 * one->sigma_a);
     CHECK(other->sigma_b == Approx(one->sigma_b).epsilon(1e-4));
   }
-  CHECK(fitted > 100);
+  CHECK(fitted > 2 * runs / 3);
 }

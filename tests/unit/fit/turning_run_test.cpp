@@ -34,15 +34,21 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
                           {"cylinder, long way back", 0.5, 0.04, 1.87e-3, 0.215, 0.02, 16},
                           {"cart, beyond its start", 0.05, 0.02, 2e-4, 0.3, 0.03, 6},
                           {"cylinder, 1 mm/s back", 0.5, 0.04, 1.87e-3, 0.215, 0.01, 5.4}};
-  const unsigned seeds = of_many(10);
-  int off_a = 0, off_b = 0, off_slope = 0;
+  const unsigned seeds = of_many(5);
+  unsigned off_a = 0;
+  unsigned off_b = 0;
+  unsigned off_slope = 0;
+  unsigned fits = 0;
   for (const Scene& scene : scenes)
-    for (const Route route : {Route::position, Route::velocity})
+    for (const Route route : {Route::position, Route::velocity}) {
+      // The short form takes each scene on one route and in one direction, in turn.
+      const auto index = static_cast<unsigned>(&scene - scenes);
+      if (seeds == 1 && (index % 2 == 0) != (route == Route::position)) continue;
       for (unsigned seed = 1; seed <= seeds; ++seed) {
         simulated::Noise noise(seed);
         Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, Geometry::approximate,
                    PowerLaw{scene.a, scene.b}, 0.5);
-        const double way = seed % 2 ? 1 : -1;
+        const double way = (seed + index / 2) % 2 ? 1 : -1;
         Run run{};
         run.body = {1, scene.R, scene.K};
         for (double t = 0; t < scene.end; t += 0.04) {
@@ -59,8 +65,10 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
         off_a += std::abs(r.a - scene.a) > 1.96 * r.sigma_a;
         off_b += std::abs(r.b - scene.b) > 1.96 * r.sigma_b;
         off_slope += std::abs(r.scene[0]->value - way * scene.slope) > 1.96 * r.scene[0]->sigma;
+        ++fits;
       }
-  const int most = seeds == 10 ? 18 : 6;
+    }
+  const unsigned most = at_most(fits, 0.05);
   CHECK(off_a <= most);
   CHECK(off_b <= most);
   CHECK(off_slope <= most);
@@ -95,12 +103,14 @@ TEST_CASE("turning run: without a slope it is refused, and told what it needs", 
 TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the wall b = 0 too",
           "[fit]") {
   simulated::Noise noise(1);
-  int off = 0;
-  int fits = 0;
+  const bool all = of_many(1) == 1;
+  unsigned off = 0;
+  unsigned fits = 0;
   for (const double b : {0.0, 0.0244, 0.003, 0.1})
     for (const double slope : {0.02, 0.03})
       for (const Route route : {Route::position, Route::velocity})
         for (int i = 0; i < 2; ++i) {
+          if (!all && (i == 0) != (route == Route::position)) continue;
           Body body{1, 0.04, 0.5, 9.81, slope};
           Roll truth(body, Geometry::approximate, PowerLaw{5.75e-4, b}, 0.5);
           const double way = i % 2 ? 1 : -1;
@@ -126,6 +136,6 @@ TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the 
           off += std::abs(found.a - 5.75e-4) > 1.96 * found.sigma_a;
           ++fits;
         }
-  CHECK(fits == 32);
-  CHECK(off <= 5);  // of 32, each of 1 in 20: more in 1 of 100
+  CHECK(fits == (all ? 32 : 16));
+  CHECK(off <= at_most(fits, 0.05));
 }

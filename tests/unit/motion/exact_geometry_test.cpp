@@ -11,6 +11,7 @@
 #include "unit/catch.h"
 #include "unit/motion/exact_form_reference.h"
 #include "unit/motion/random_scene.h"
+#include "unit/many.h"
 
 using namespace rolling;
 
@@ -53,7 +54,8 @@ void check(const RandomScene& scene, std::mt19937_64& random) {
 TEST_CASE("Exact geometry: random scenes against 60 digits, until just before the stop",
           "[rolling]") {
   std::mt19937_64 random(4);
-  for (int n = 0; n < 2000; ++n) check(random_scene(random), random);  // tests/bench/ulp takes more
+  for (unsigned n = 0; n < of_many(2000); ++n)
+    check(random_scene(random), random);  // tests/bench/ulp takes more
 }
 
 TEST_CASE("Exact geometry: D(v0) near R, against 60 digits", "[rolling]") {
