@@ -3,9 +3,6 @@
 // of one sample.
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "signal/signal.h"
 
 namespace rolling {
@@ -13,17 +10,10 @@ namespace rolling {
 /// The derivative of the parabola through three neighbouring samples at any spacing: at the middle
 /// sample inside the run (the central difference), at the outer one at the ends. Second order in
 /// the spacing, exact on a parabola. For a run of two samples it is their slope.
-class CentralDerivative : public Signal {
+class CentralDerivative : public WindowedSignal<CentralDerivative> {
  public:
-  std::span<const double> push(double t, double y) override;
-  std::span<const double> finish() override;
-
- private:
-  std::size_t count_ = 0;
-  double t_ = 0, y_ = 0;         // the last sample
-  double step_ = 0, slope_ = 0;  // from the last but one sample to the last
-  double bend_ = 0;              // half of the second derivative of the parabola
-  std::array<double, 2> known_{};
+  CentralDerivative() : WindowedSignal({3, 0}, Windows::Ends::stay) {}
+  static double value(const Windows&);
 };
 
 /// The derivative of Vernier's programs: the slopes over one, two and three samples to either side,
@@ -44,7 +34,7 @@ class VernierDerivative : public WindowedSignal<VernierDerivative> {
 class PascoDerivative : public WindowedSignal<PascoDerivative> {
  public:
   PascoDerivative() : WindowedSignal({5, 0}, Windows::Ends::cut) {}
-  double value(const Windows&);
+  static double value(const Windows&);
 };
 
 }  // namespace rolling
