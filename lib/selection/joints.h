@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "base/quantity.h"
 #include "selection/pieces.h"
 #include "signal/windows.h"
 
@@ -20,13 +19,11 @@ struct Ending {
 };
 
 /// The joints of samples of this noise. Each RSS is in units of the variance of the noise.
-template <Quantity of>
 class Joints {
-  static constexpr std::size_t P = most_coefficients(of);
-  static constexpr bool positions = of == Quantity::x;
-
  public:
-  Joints(std::span<const Sample> samples, double noise) : samples_(samples), noise_(noise) {}
+  Joints(std::span<const Sample> samples, bool positions, double noise)
+      : samples_(samples), positions_(positions), most_(most_coefficients(positions)),
+        noise_(noise) {}
 
   /// The RSS of the samples [begin, end) as two polynomials of `order` and `order_after`
   /// coefficients, for each number of samples that the first one may have.
@@ -58,14 +55,11 @@ class Joints {
 
  private:
   double rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end) const;
-  /// The roll up to the sample `joint`, and the hand from there on.
-  struct Held;
 
   std::span<const Sample> samples_;
+  bool positions_;
+  std::size_t most_;  // coefficients of a piece
   double noise_;
 };
-
-extern template class Joints<Quantity::x>;
-extern template class Joints<Quantity::v>;
 
 }  // namespace rolling

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/quantity.h"
 #include "selection/joints.h"
 #include "selection/pieces.h"
 
@@ -27,14 +26,12 @@ struct Chain {
 };
 
 /// The rolls in samples of this noise.
-template <Quantity of>
 class Search {
-  static constexpr bool positions = of == Quantity::x;
-
  public:
-  Search(std::span<const Sample> samples, double noise, std::size_t rows)
-      : samples_(samples), noise_(noise), rows_(rows), joints_(samples, noise) {
-    const auto joints = best_partition<most_coefficients(of)>(samples, noise);
+  Search(std::span<const Sample> samples, bool positions, double noise, std::size_t rows)
+      : samples_(samples), positions_(positions), noise_(noise), rows_(rows),
+        joints_(samples, positions, noise) {
+    const auto joints = best_partition(samples, positions, noise);
     for (std::size_t i = 1; i < joints.size(); ++i) add_piece(joints[i - 1], joints[i]);
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
@@ -67,7 +64,7 @@ class Search {
   /// standard errors: a free body slows down, so that the second part is driven. (A maximum may be
   /// one of a body on its way back down a slope, which nears its last speed.)
   void add_piece(std::size_t begin, std::size_t end) {
-    const Piece<of> p(samples_, begin, end, noise_);
+    const Piece p(samples_, positions_, begin, end, noise_);
     pieces_.push_back(p);
     const double first = p.a(p.from).value;
     const double last = p.a(p.to).value;
@@ -80,8 +77,8 @@ class Search {
     std::size_t joint = begin;
     while (samples_[joint].t < t) ++joint;
     if (std::min(joint - begin, end - joint) < 5) return;
-    pieces_.back() = Piece<of>(samples_, begin, joint, noise_);
-    pieces_.emplace_back(samples_, joint, end, noise_);
+    pieces_.back() = Piece(samples_, positions_, begin, joint, noise_);
+    pieces_.emplace_back(samples_, positions_, joint, end, noise_);
   }
 
   /// A speed, and the deceleration at it.
@@ -93,7 +90,7 @@ class Search {
     std::vector<Slowing> law;
     for (std::size_t i = c.first; i <= c.last; ++i)
       for (const double part : {1.0 / 6, 0.5, 5.0 / 6}) {
-        const Piece<of>& p = pieces_[i];
+        const Piece& p = pieces_[i];
         const double t = std::lerp(p.from, p.to, part);
         const double v = p.v(t).value;
         if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v)});
@@ -152,15 +149,15 @@ class Search {
   std::vector<Chain> chains() const {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      const Piece<of>& p = pieces_[i];
+      const Piece& p = pieces_[i];
       const auto a = p.a(p.middle());
       if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
       else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
     }
     for (Chain& c : chains) {
-      const Piece<of>& a = pieces_[c.first];
-      const Piece<of>& b = pieces_[c.last];
+      const Piece& a = pieces_[c.first];
+      const Piece& b = pieces_[c.last];
       const double v0 = a.v(a.from).value;
       const double v1 = b.v(b.to).value;
       c.duration = b.to - a.from;
@@ -175,15 +172,15 @@ class Search {
 
   /// Whether the motion is far above the noise: the noise alone makes one such piece in some
   /// thousand.
-  bool stands_out(const Piece<of>& a, const Piece<of>& b) const {
-    if (!positions) return std::abs(a.v(a.from).value) > 5 * noise_;
-    const auto way = [&](const Piece<of>& in, double t) {
+  bool stands_out(const Piece& a, const Piece& b) const {
+    if (!positions_) return std::abs(a.v(a.from).value) > 5 * noise_;
+    const auto way = [&](const Piece& in, double t) {
       return std::abs(in.y(t).value - a.y(a.from).value);
     };
     return std::max({way(b, b.to), way(a, a.to), way(a, a.middle())}) > 12 * noise_;
   }
   /// Whether the body slows down, or turns and comes back.
-  bool is_roll(const Piece<of>& p) const {
+  bool is_roll(const Piece& p) const {
     const auto v0 = p.v(p.from);
     const auto v1 = p.v(p.to);
     const auto v = p.v(p.middle());
@@ -193,15 +190,15 @@ class Search {
       return v0.value * a.value < 0 && std::abs(v1.value) < 1.1 * std::abs(v0.value);
     return v.value * a.value < 0 && v.is_known() && std::abs(v.value) > 0.03 * fastest_;
   }
-  bool comes_back(const Piece<of>& p, double way) const {
+  bool comes_back(const Piece& p, double way) const {
     const auto v = p.v(p.to);
     if (!v.is_known()) return false;
-    if (!positions) return v.value * way > 0.15 * fastest_;
+    if (!positions_) return v.value * way > 0.15 * fastest_;
     return v.value * way > 0.03 * fastest_ && stands_out(p, p);
   }
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
-  bool continues(const Piece<of>& a, const Piece<of>& b) const {
+  bool continues(const Piece& a, const Piece& b) const {
     if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
@@ -230,13 +227,13 @@ class Search {
 
   /// Whether the body may be at rest at the end.
   bool is_slow(const Chain& c) const {
-    const Piece<of>& last = pieces_[c.last];
+    const Piece& last = pieces_[c.last];
     const auto v = last.v(last.to);
     return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest);
   }
 
   FreeRoll::End end_of(const Chain& c) const {
-    const Piece<of>& last = pieces_[c.last];
+    const Piece& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto back = last.v(last.middle());
     if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
@@ -251,7 +248,7 @@ class Search {
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint, and a mean of as many as it is made of.
     const std::size_t spare =
-        std::min<std::size_t>(positions ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
+        std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
     if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
@@ -263,15 +260,15 @@ class Search {
 
   /// The first sample behind the push, wherever the joint lies.
   std::size_t begin_of(const Chain& c) const {
-    const Piece<of>& first = pieces_[c.first];
+    const Piece& first = pieces_[c.first];
     if (first.begin == 0) return 0;
-    const Piece<of>& before = pieces_[c.first - 1];
+    const Piece& before = pieces_[c.first - 1];
     const auto cost = joints_.costs(before.begin, before.order, first.order, first.end);
     std::size_t begin = before.begin + joints_.inner(cost, before.size(), first.size() / 3, 1);
     begin = std::max(begin, first.end - joints_.agreeing(first.end - 1, first.begin));
     // A speed is made of positions on either side of its time, also of one before the joint.
     const double t = samples_[begin].t;
-    const double joint = positions ? std::midpoint(samples_[begin - 1].t, t) : t;
+    const double joint = positions_ ? std::midpoint(samples_[begin - 1].t, t) : t;
     const double seen = joint + std::max(unseen(first, t), unseen_push(before, first));
     while (samples_[begin].t < std::min(seen, first.to)) ++begin;
     return begin;
@@ -279,11 +276,11 @@ class Search {
 
   /// Sets the end of the samples `s` before the stop, the hand, ..., and says which it is.
   FreeRoll::End set_end(const Chain& c, Stretch& s) const {
-    const Piece<of>& last = pieces_[c.last];
+    const Piece& last = pieces_[c.last];
     FreeRoll::End how = end_of(c);
     double sudden = INFINITY;  // RSS of an end with a jump
     if (s.end < samples_.size()) {
-      const Piece<of>& next = pieces_[c.last + 1];
+      const Piece& next = pieces_[c.last + 1];
       const auto cost = joints_.costs(last.begin, last.order, next.order, next.end);
       sudden = *std::min_element(cost.begin(), cost.end());
       s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
@@ -318,7 +315,7 @@ class Search {
   /// How a roll ends that is slow at its end, and where. `sudden` is the RSS of an end at which the
   /// speed jumps.
   FreeRoll::End slow_end(const Chain& c, FreeRoll::End how, double sudden, Stretch& s) const {
-    const Piece<of>& last = pieces_[c.last];
+    const Piece& last = pieces_[c.last];
     const std::size_t end = s.end < samples_.size() ? pieces_[c.last + 1].end : last.end;
     const auto [stop, rss] = joints_.before_stop(last.begin, last.end, end);
     if (rss > sudden + five_sigma) how = FreeRoll::End::is_ended;
@@ -327,7 +324,7 @@ class Search {
     const std::size_t before = std::max(c.first + 1, c.last) - 1;
     const std::size_t begin = std::max(s.begin, pieces_[before].begin);
     double any = five_sigma;  // RSS of what agrees with the readings as well as the pieces do
-    for (const Piece<of>& p : std::span(pieces_).subspan(before))
+    for (const Piece& p : std::span(pieces_).subspan(before))
       if (p.end <= end) any += p.rss();
     const double by_itself = joints_.before_stop(begin, last.end, end).rss;
     const auto [hand, by_hand] = joints_.before_hand(begin, last.end, end);
@@ -338,36 +335,37 @@ class Search {
 
   /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
   /// back, within T deviates from the sudden change by v T/8 at most.
-  double unseen(const Piece<of>& p, double t) const {
-    const double time = positions ? 12 * noise_ / std::abs(p.v(t).value) : 0;
+  double unseen(const Piece& p, double t) const {
+    const double time = positions_ ? 12 * noise_ / std::abs(p.v(t).value) : 0;
     return std::min(time, p.duration() / 4);
   }
 
   /// The same for the end of a push of the duration T, whose force fades: its speed is
   /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
-  double unseen_push(const Piece<of>& push, const Piece<of>& roll) const {
+  double unseen_push(const Piece& push, const Piece& roll) const {
     if (!push.a(push.middle()).is_known()) return 0;
     const double v = std::abs(roll.v(roll.from).value);
     const double T = push.duration();
     const double share = 2 * noise_ / v;
-    const double s = positions ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
+    const double s =
+        positions_ ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
     return std::min({s, T / 2, roll.duration() / 8});
   }
 
   std::span<const Sample> samples_;
+  bool positions_;
   double noise_;
   std::size_t rows_;
   double fastest_ = 0;
-  Joints<of> joints_;
-  std::vector<Piece<of>> pieces_;
+  Joints joints_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace
 
 std::vector<FreeRoll> search_rolls(std::span<const Sample> samples, bool positions, double noise,
                                    std::size_t rows) {
-  if (positions) return Search<Quantity::x>(samples, noise, rows).rolls();
-  return Search<Quantity::v>(samples, noise, rows).rolls();
+  return Search(samples, positions, noise, rows).rolls();
 }
 
 }  // namespace rolling

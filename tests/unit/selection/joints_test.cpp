@@ -26,8 +26,8 @@ TEST_CASE("joints: a stop and a hand are told apart by their RSS", "[signal]") {
       rest.push_back({t, std::max(0.0, 0.5 - 0.2 * t) + size * of_noise});
       hand.push_back({t, (t < 1 ? 0.5 - 0.2 * t : held) + size * of_noise});
     }
-    const Joints<Quantity::v> at_rest(rest, size);
-    const Joints<Quantity::v> by_hand(hand, size);
+    const Joints at_rest(rest, false, size);
+    const Joints by_hand(hand, false, size);
     const Ending stop = at_rest.before_stop(0, 62, rest.size());
     const Ending caught = by_hand.before_hand(0, 30, hand.size());
     CHECK(rest[stop.end - 1].t <= 2.5);
