@@ -41,13 +41,13 @@ struct Neighbours {
 
   double unit = 0, length = 0;
 
-  /// Those of `origin` for which use() holds.
-  Neighbours(auto begin, auto end, const auto& origin, auto&& use) {
+  /// Those of `origin`, but for this one.
+  Neighbours(auto begin, auto end, const Sample& origin, const Sample* without) {
     for (auto s = begin; s != end; ++s) unit = std::max(unit, std::abs(s->y - origin.y));
     unit = unit > 0 ? std::ldexp(1.0, std::ilogb(unit)) : 1;
     length = (end - 1)->t - begin->t;
     for (auto s = begin; s != end; ++s)
-      if (use(*s)) at[size++] = {(s->t - origin.t) / length, (s->y - origin.y) / unit};
+      if (&*s != without) at[size++] = {(s->t - origin.t) / length, (s->y - origin.y) / unit};
   }
   /// The scatter about a polynomial of them.
   double scatter(const Polynomial<3>& motion) const {
@@ -106,7 +106,6 @@ std::span<const Sample> Outliers::finish() {
   judge();
   scatter_.finish();
   judge();
-  judge_before(count_);
   return judged_;
 }
 
@@ -115,26 +114,22 @@ double Outliers::least_scatter() const { return std::max(step_ / 3, program_roun
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
 bool Outliers::few() const { return scatter_.size() < 3 * near; }
 
-std::deque<Outliers::Judged>::const_iterator Outliers::at(std::size_t i) const {
+std::deque<Sample>::const_iterator Outliers::at(std::size_t i) const {
   return samples_.begin() + static_cast<std::ptrdiff_t>(i - first_);
 }
 
-Outliers::Range Outliers::around(std::size_t i) const {
+/// Whether sample i is on the motion of its neighbours, whose readings have this noise.
+bool Outliers::belongs(std::size_t i, double noise) const {
+  const Sample& s = *at(i);
   const bool inside = i >= near / 2 && i + near / 2 < count_;
   const std::size_t size = inside ? near : near_end;
   const std::size_t before = i - std::min(i, near / 2);
   const std::size_t last = count_ - std::min(count_, size);
   const std::size_t begin = std::max(first_, std::min(before, last));
-  return {begin, std::min(std::max(i + near / 2 + 1, begin + size), count_)};
-}
-
-/// Whether sample i is on the motion of its neighbours.
-bool Outliers::belongs(std::size_t i) const {
-  const Judged& s = *at(i);
-  const auto [begin, end] = around(i);
-  const Neighbours others(at(begin), at(end), s, [&](const Judged& of) { return &of != &s; });
+  const std::size_t end = std::min(std::max(i + near / 2 + 1, begin + size), count_);
+  const Neighbours others(at(begin), at(end), s, &s);
   if (others.size < 4) return true;
-  double noise = (few() ? least_scatter() : s.noise) / others.unit;
+  noise = (few() ? least_scatter() : noise) / others.unit;
   Polynomial<3> motion = others.parabola();
   if (others.scatter(motion) > scatters * noise) {
     motion = others.best_parabola();
@@ -143,57 +138,27 @@ bool Outliers::belongs(std::size_t i) const {
     else if (own > 4.5 * noise) noise = own;
     motion = others.parabola(motion, 4 * noise);
   }
-  return is_on(motion, noise);
-}
-
-/// The same, now that the outliers beside it are known, which may have hidden it.
-bool Outliers::belongs_still(std::size_t i) const {
-  const auto [begin, end] = around(i);
-  const bool beside = (i > begin && !at(i - 1)->kept) || (i + 1 < end && !at(i + 1)->kept);
-  const Judged& s = *at(i);
-  if (!beside) return true;
-  const Neighbours others(at(begin), at(end), s,
-                          [&](const Judged& of) { return &of != &s && of.kept; });
-  if (others.size < 4) return true;
-  const double noise = (few() ? least_scatter() : s.noise) / others.unit;
-  const Polynomial<3> motion = others.parabola();
-  return others.scatter(motion) > scatters * noise || is_on(motion, noise);
-}
-
-bool Outliers::is_on(const Polynomial<3>& motion, double noise) const {
   const auto [value, error] = motion.derivative(0, 0);
   return std::abs(value) <= threshold_ * noise * std::sqrt(1 + error * error);
 }
 
-/// Judges, now that the neighbours of the samples before `end` have been tested.
-void Outliers::judge_before(std::size_t end) {
-  for (; next_ < end; ++next_) {
-    const Judged& s = samples_[next_ - first_];
-    judged_.push_back({s.t, s.kept && (few() || belongs_still(next_)) ? s.y : NAN});
-  }
-  for (; next_ > first_ + near_end; ++first_) samples_.pop_front();
-}
-
 void Outliers::judge() {
   while (near_.next()) {
-    const Sample& s = near_.sample(near_.at());
-    std::array<Sample, near> window;
-    for (std::size_t i = 0; i < near_.size(); ++i) window[i] = near_.sample(near_.begin() + i);
-    const Neighbours all(window.begin(), window.begin() + static_cast<std::ptrdiff_t>(near_.size()),
-                         s, [](const Sample&) { return true; });
+    const Sample& s = *at(near_.at());
+    const Neighbours all(at(near_.begin()), at(near_.end()), s, nullptr);
     scatter_.push(s.t, std::sqrt(all.parabola().rss()) * all.unit);
   }
   while (scatter_.next()) {
     const SortedWindow& sorted = sorted_.of(scatter_);
     const std::size_t i = scatter_.at();
-    Judged& s = samples_[i - first_];
-    s.noise =
+    const double noise =
         std::max(sorted[sorted.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
                  least_scatter());
     // No reading is further from the motion than the root of the RSS, in standard errors.
-    const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * s.noise;
-    s.kept = near_all || belongs(i);
-    judge_before(i + 1 - std::min(i + 1, near / 2));
+    const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * noise;
+    const auto [t, y] = *at(i);
+    judged_.push_back({t, near_all || belongs(i, noise) ? y : NAN});
+    for (; i > first_ + near_end; ++first_) samples_.pop_front();
   }
 }
 

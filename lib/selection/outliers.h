@@ -4,7 +4,6 @@
 
 #include <deque>
 
-#include "selection/polynomial.h"
 #include "signal/signal.h"
 
 namespace rolling {
@@ -16,15 +15,14 @@ namespace rolling {
 /// five on either side, at the ends of a run the first or last 25; where they scatter, through
 /// all but three of them, those that lie on a parabola best (least trimmed squares, Rousseeuw 1984,
 /// J. Am. Stat. Assoc. 79, 871), and then all within four standard deviations of it, so that a
-/// burst of three does not decide. The scatter is that of the readings of the window about their
-/// parabolas (its lower quartile, which outliers hardly move); that of the best, if it is 4.5
-/// times as large: a push or a stop bends the motion itself. What passes next to an outlier is
-/// tested again without it: of a burst each hides the others. The scatter is at least a third of
-/// the smallest first or second difference so far, which is the last digit of readings that are
-/// rounded, however fast the body moves: a step of it is no outlier. In a window of less than 33
-/// samples it is 1.5 times that of the best. Windows are cut off at the ends of a run and hold 151
-/// samples or more, because the scatter of few is often far too small. About 1 us for a sample, 30
-/// us where it scatters.
+/// burst of three does not decide. The scatter is that of
+/// the readings of the window about their parabolas (its lower quartile, which outliers hardly
+/// move); that of the best, if it is 4.5 times as large: a push or a stop bends the motion itself.
+/// The scatter is at least a third of the smallest first or second difference so far, which is the
+/// last digit of readings that are rounded, however fast the body moves: a step of it is no
+/// outlier. In a window of less than 33 samples it is 1.5 times that of the best. Windows are cut
+/// off at the ends of a run and hold 151 samples or more, because the scatter of few is often far
+/// too small. About 1 us for a sample, 30 us where it scatters.
 class Outliers {
  public:
   Outliers(Width, double threshold);
@@ -34,21 +32,9 @@ class Outliers {
   std::span<const Sample> finish();
 
  private:
-  struct Judged {
-    double t, y;
-    bool kept = true;
-    double noise = 0;  // of its neighbours
-  };
-  struct Range {
-    std::size_t begin, end;
-  };
   void judge();
-  std::deque<Judged>::const_iterator at(std::size_t i) const;
-  Range around(std::size_t i) const;  // the neighbours of sample i, and the sample
-  bool belongs(std::size_t i) const;
-  bool belongs_still(std::size_t i) const;
-  bool is_on(const Polynomial<3>& motion, double noise) const;
-  void judge_before(std::size_t end);
+  std::deque<Sample>::const_iterator at(std::size_t i) const;
+  bool belongs(std::size_t i, double noise) const;
   double least_scatter() const;
   bool few() const;
 
@@ -59,8 +45,8 @@ class Outliers {
   double large_ = 0;              // the largest reading so far that a neighbour reaches too
   double step_ = 0;               // the smallest difference so far
   Sliding<SortedWindow> sorted_;
-  std::deque<Judged> samples_;  // of the run, from the index first_ on, tested once
-  std::size_t first_ = 0, next_ = 0, count_ = 0;
+  std::deque<Sample> samples_;  // of the run, from the index first_ on
+  std::size_t first_ = 0, count_ = 0;
   std::vector<Sample> judged_;
 };
 
