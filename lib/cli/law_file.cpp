@@ -87,35 +87,29 @@ constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
 std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file,
                                  const ShiftOf& given, bool with_errors) {
   const LawForm& form = law_of_columns(in, file);
-  RowsOfFit rows(in, form, with_errors);
-  std::vector<LawOfFile> all;
   std::set<std::string> runs;
-  while (rows.next_run()) {
+  auto all = rows_of_fit(in, form, with_errors, [&](const LawOfFile& row) {
     if (&law_of_columns(in, file) != &form)
       fail<InputError>("{}: rows of several laws: give those of one", shown(file));
-    const std::size_t first = all.size();
-    while (rows.next()) all.push_back(rows.read());
-    const std::vector<ShiftOf> contacts = rows.contacts();
-    for (std::size_t i = first; i < all.size(); ++i) {
-      LawOfFile& row = all[i];
-      if (!runs.insert(row.run).second)
-        fail<InputError>(
-            "{}: more than one row{}: a law is one row of fitpower, or one for each run, with its "
-            "name in a column run",
-            shown(file), row.run.empty() ? "" : fmt::format(" of run '{}'", shown(row.run)));
-      row.contact = given;
-      if (!contacts.empty()) {
-        const std::string others = take_contact(tool, contacts[i - first], row.contact);
-        if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
-      }
-      // The slope and the wind of a row are fitted: they take precedence over those of a scene.
-      Body& body = row.contact.body;
-      if (!std::isnan(row.slope) && !tool.on_command_line("slope")) body.slope = row.slope;
-      if (!std::isnan(row.wind) && !tool.on_command_line("wind")) body.wind = row.wind;
-      if (!std::isnan(row.steepness)) body.steepness = row.steepness;
-    }
-  }
+    if (!runs.insert(row.run).second)
+      fail<InputError>(
+          "{}: more than one row{}: a law is one row of fitpower, or one for each run, with its "
+          "name in a column run",
+          shown(file), row.run.empty() ? "" : fmt::format(" of run '{}'", shown(row.run)));
+  });
   if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(file));
+  for (LawOfFile& row : all) {
+    row.contact = given;
+    if (row.fitted_with) {
+      const std::string others = take_contact(tool, *row.fitted_with, row.contact);
+      if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
+    }
+    // The slope and the wind of a row are fitted: they take precedence over those of a scene.
+    Body& body = row.contact.body;
+    if (!std::isnan(row.slope) && !tool.on_command_line("slope")) body.slope = row.slope;
+    if (!std::isnan(row.wind) && !tool.on_command_line("wind")) body.wind = row.wind;
+    if (!std::isnan(row.steepness)) body.steepness = row.steepness;
+  }
   return all;
 }
 
@@ -213,57 +207,57 @@ std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file) {
   return std::make_unique<const Road>(read_table<Road>(in, file, x, h));
 }
 
-RowsOfFit::RowsOfFit(Reader& in, const LawForm& form, bool with_errors) : in_(in), form_(form) {
+std::vector<LawOfFile> rows_of_fit(Reader& in, const LawForm& form, bool with_errors,
+                                   const std::function<void(const LawOfFile&)>& of_row) {
+  std::vector<std::pair<std::size_t, double LawOfFile::*>> roll;  // with their slots
+  std::vector<std::size_t> coefficients;                          // slots, as these
+  std::vector<std::size_t> sigmas;
+  std::vector<std::size_t> correlations;
   for (const RollNumber& number : roll_numbers)
     if (in.find(number.name))
-      roll_.emplace_back(in.need_as_is(number.name, number.unit), number.value);
+      roll.emplace_back(in.need_as_is(number.name, number.unit), number.value);
   for (const Column& c : columns_of(form)) {
-    coefficients_.push_back(in.need_as_is(c.name, c.unit));
-    if (with_errors) sigmas_.push_back(in.need_as_is("sigma_" + c.name, c.unit));
+    coefficients.push_back(in.need_as_is(c.name, c.unit));
+    if (with_errors) sigmas.push_back(in.need_as_is("sigma_" + c.name, c.unit));
   }
   if (with_errors)
     for (const std::string& name : correlations_of(form))
-      correlations_.push_back(in.need_as_is(name));
-}
+      correlations.push_back(in.need_as_is(name));
 
-bool RowsOfFit::next_run() {
-  places_.clear();
-  left_out_ = in_.left_out();
-  return in_.next_run();
-}
-
-bool RowsOfFit::next() {
-  if (!in_.next()) return false;
-  places_.push_back(places_.size() + in_.left_out() - left_out_);
-  return true;
-}
-
-LawOfFile RowsOfFit::read() const {
-  LawOfFile row;
-  for (const std::size_t slot : coefficients_) row.coefficients.push_back({in_[slot]});
-  std::vector<double> written;
-  for (const std::size_t slot : coefficients_) written.push_back(in_[slot]);
-  row.law = Law::as_written(form_, written);
-  if (const auto law = row.law.power(); law && !(law->a > 0))
-    fail("a = {} must be greater than 0", law->a);
-  if (const auto run = in_.find("run")) row.run = in_.text(*run);
-  for (const auto& [slot, number] : roll_) row.*number = in_[slot];
-  for (std::size_t j = 0; j < sigmas_.size(); ++j) {
-    row.coefficients[j].sigma = in_[sigmas_[j]];
-    row.changes.push_back(changes_of(form_, written, j, in_[sigmas_[j]]));
-    row.correlations.emplace_back();
-    for (std::size_t i = 0; i < j; ++i)
-      row.correlations[j].push_back(in_[correlations_[j * (j - 1) / 2 + i]]);
+  std::vector<LawOfFile> all;
+  while (in.next_run()) {
+    // Rows without numbers, of runs that were not fitted, have a place in the `##` line too, and
+    // the reader leaves them out.
+    const std::size_t left_out = in.left_out();
+    const std::size_t first = all.size();
+    std::vector<std::size_t> places;
+    while (in.next()) {
+      places.push_back(places.size() + in.left_out() - left_out);
+      LawOfFile& row = all.emplace_back();
+      std::vector<double> written;
+      for (const std::size_t slot : coefficients) {
+        written.push_back(in[slot]);
+        row.coefficients.push_back({in[slot]});
+      }
+      row.law = Law::as_written(form, written);
+      if (const auto law = row.law.power(); law && !(law->a > 0))
+        fail("a = {} must be greater than 0", law->a);
+      if (const auto run = in.find("run")) row.run = in.text(*run);
+      for (const auto& [slot, number] : roll) row.*number = in[slot];
+      for (std::size_t j = 0; j < sigmas.size(); ++j) {
+        row.coefficients[j].sigma = in[sigmas[j]];
+        row.changes.push_back(changes_of(form, written, j, in[sigmas[j]]));
+        row.correlations.emplace_back();
+        for (std::size_t i = 0; i < j; ++i)
+          row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
+      }
+      of_row(row);
+    }
+    const auto contacts = contacts_of_rows(in.history(), places.size() + in.left_out() - left_out);
+    for (std::size_t i = 0; i < places.size() && !contacts.empty(); ++i)
+      all[first + i].fitted_with = contacts[places[i]];
   }
-  return row;
-}
-
-std::vector<ShiftOf> RowsOfFit::contacts() const {
-  const auto all = contacts_of_rows(in_.history(), places_.size() + in_.left_out() - left_out_);
-  std::vector<ShiftOf> of_rows;
-  for (const std::size_t place : places_)
-    if (!all.empty()) of_rows.push_back(all[place]);
-  return of_rows;
+  return all;
 }
 
 std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,

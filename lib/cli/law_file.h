@@ -2,10 +2,11 @@
 // Laws D(v) as people write them, and the file of the option --law.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/matrix.h"
@@ -55,7 +56,8 @@ struct LawOfFile {
   Law law = {};
   /// Of the options; where these give no number, of the row of fitpower and its `##` line.
   ShiftOf contact = {};
-  std::string run = {};  ///< the run that the row is of, if it has a column run
+  std::optional<ShiftOf> fitted_with = {};  ///< by the `##` line above the row, if it says so
+  std::string run = {};                     ///< the run that the row is of, if it has a column run
   /// What the row has of its roll; else NaN.
   double slope = not_given;
   double wind = not_given;
@@ -78,30 +80,10 @@ struct LawOfFile {
   double sigma(double v) const;
 };
 
-/// Reads rows of fitpower, run by run.
-class RowsOfFit {
- public:
-  /// Declares the columns that a row of this law needs.
-  RowsOfFit(Reader&, const LawForm&, bool with_errors);
-  bool next_run();
-  bool next();
-  /// The present row, without its body. Throws Error if its a is not above 0.
-  LawOfFile read() const;
-  /// Behind the last row of a run: the body of each of its rows; empty if they are not known. Rows
-  /// without numbers, of runs that were not fitted, have a place in the `##` line too, and the
-  /// reader leaves them out.
-  std::vector<ShiftOf> contacts() const;
-
- private:
-  Reader& in_;
-  const LawForm& form_;
-  std::vector<std::pair<std::size_t, double LawOfFile::*>> roll_;  // with their slots
-  std::vector<std::size_t> coefficients_;                          // slots, as these
-  std::vector<std::size_t> sigmas_;
-  std::vector<std::size_t> correlations_;
-  std::vector<std::size_t> places_;  // of the rows of this run, those without numbers counted
-  std::size_t left_out_ = 0;         // rows, before this run
-};
+/// The rows of fitpower in all runs of the input, for one law: `of_row` gets each while it is the
+/// present row. Throws Error for an a that is not above 0.
+std::vector<LawOfFile> rows_of_fit(Reader&, const LawForm&, bool with_errors,
+                                   const std::function<void(const LawOfFile&)>& of_row);
 
 /// The laws that the options tell: a v^b if there is no file, which then needs a and b; else a
 /// table of v and D, or rows of fitpower, a file with the columns of the coefficients of a law.

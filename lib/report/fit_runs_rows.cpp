@@ -62,26 +62,21 @@ FitRows read_rows(Tool& tool) {
   Reader& in = tool.read({});
   if (in.find("d0")) fail("these are rows of another law: --route fits joins rows of a v^b only");
   if (!in.find("sigma_a")) fail("no rows of fitpower: there is no column sigma_a");
-  RowsOfFit rows_of_fit(in, laws().front(), true);
-  const auto rms = in.want("rms"), n = in.want("n");  // NaN in runs that lack them, as these
+  const auto rms = in.want("rms");  // NaN in runs that lack it, as the others
+  const auto n = in.want("n");
   std::vector<std::size_t> sigmas;
   for (const char* number : {"sigma_a", "sigma_b", "sigma_v0", "sigma_x0", "sigma_slope"})
     sigmas.push_back(in.want(number));
   FitRows rows;
-  while (rows_of_fit.next_run()) {
-    const std::size_t first = rows.runs.size();
-    while (rows_of_fit.next()) {
-      const LawOfFile row = rows_of_fit.read();
-      rows.add(row.run.empty() ? in.where() : row.run, row);
-      const auto parameters = static_cast<double>(  // what is fixed has no error
-          std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
-      if (!(in[n] > parameters) || !(in[rms] > 0)) continue;
-      rows.laws.back().rms = in[rms];
-      rows.laws.back().freedom = in[n] - parameters;
-    }
-    const std::vector<ShiftOf> contacts = rows_of_fit.contacts();
-    for (std::size_t i = 0; i < contacts.size(); ++i) rows.runs[first + i].shift_of = contacts[i];
-  }
+  const auto all = rows_of_fit(in, laws().front(), true, [&](const LawOfFile& row) {
+    rows.add(row.run.empty() ? in.where() : row.run, row);
+    const auto parameters = static_cast<double>(  // what is fixed has no error
+        std::ranges::count_if(sigmas, [&](std::size_t sigma) { return in[sigma] > 0; }));
+    if (!(in[n] > parameters) || !(in[rms] > 0)) return;
+    rows.laws.back().rms = in[rms];
+    rows.laws.back().freedom = in[n] - parameters;
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) rows.runs[i].shift_of = all[i].fitted_with;
   if (rows.laws.size() < 2)
     fail("{}: a joint law is that of two or more", counted(rows.laws.size(), "row"));
   return rows;
