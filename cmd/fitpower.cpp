@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/fit_line_written.h"
 #include "cli/history.h"
 #include "cli/law_file.h"
 #include "fit/fit.h"

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <numeric>
 #include <set>
 
 #include "base/enumeration.h"
 #include "base/error.h"
-#include "cli/fit_line.h"
 #include "contact/body.h"
 #include "signal/method.h"
 #include "text/row_pipe.h"
@@ -130,6 +130,35 @@ std::string names_of(const std::set<Quantity>& quantities) {
   return names;
 }
 
+/// The contact of each of so many rows in the words `K 0.5 R 0.04,0.05 g 9.81 [slope S] [wind W]
+/// [exact]`. Empty if they are of more runs than rows, nothing for other words.
+std::optional<std::vector<ShiftOf>> read_contacts(std::span<const std::string> words,
+                                                  std::size_t rows) {
+  std::vector<ShiftOf> contacts(rows, {{NAN, NAN, NAN, NAN}});
+  auto number = std::begin(words_of_body);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "exact") {
+      for (ShiftOf& contact : contacts) contact.geometry = Geometry::exact;
+      continue;
+    }
+    number = std::find_if(number, std::end(words_of_body),
+                          [&](const Word& word) { return word.name == words[i]; });
+    if (number == std::end(words_of_body) || ++i == words.size()) return {};
+    const std::vector<std::string> texts = split_names(words[i], ',');
+    if (texts.size() != 1 && texts.size() != rows) return std::vector<ShiftOf>{};
+    for (std::size_t row = 0; row < rows; ++row) {
+      const std::string& text = texts[texts.size() == 1 ? 0 : row];
+      Estimate read{NAN};
+      if (!parse_estimate(text, read) && !(text == "fit" && number->is_fitted)) return {};
+      contacts[row].body.*number->value = read.value;
+      if (number->sigma) contacts[row].body.*number->sigma = read.sigma;
+    }
+  }
+  for (const auto& [body, geometry] : contacts)
+    if (!(body.K >= 0 && body.R > 0 && body.g > 0)) return {};
+  return contacts;
+}
+
 }  // namespace
 
 Column derivative_of(const Column& column) {
@@ -150,6 +179,20 @@ std::string line_of(const ShiftOf& of) {
       line += fmt::format(" {} {}", number.name, to_text(x));
   }
   return line;
+}
+
+std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows) {
+  for (const std::string& line : lines) {
+    const std::vector<std::string> words = split_names(line, '\0');
+    if (words.front() != "fitpower") continue;
+    const auto numbers = std::ranges::find(words, words_of_body[0].name);
+    if (words.size() >= 3 && numbers == words.end()) return {};
+    const auto contacts = read_contacts({numbers, words.end()}, rows);
+    if (numbers - words.begin() > 4 || !contacts)
+      fail("`## {}` is not what fitpower writes", shown(line));
+    return *contacts;
+  }
+  return {};
 }
 
 // The numbers of shift-from-accel are known even if the filters before it are not.

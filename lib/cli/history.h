@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The filters that columns have gone through: those of the `##` lines, in which the tools describe
-// what they did to the columns, and those that the software of a sensor may have applied.
+// The `##` lines, in which the tools describe what they did to the columns: the filters that these
+// have gone through, and the bodies behind which numbers were made. And the filters that the
+// software of a sensor may have applied.
 #pragma once
 
 #include <optional>
@@ -18,6 +19,25 @@ Column derivative_of(const Column&);
 
 /// The line of shift-from-accel: the numbers from which D was computed, with their uncertainties.
 std::string line_of(const ShiftOf&);
+
+/// A number of the body in the line of a tool.
+struct Word {
+  const char* name;
+  double Body::*value;
+  double Body::*sigma;                    ///< nullptr for one without an uncertainty
+  bool FitOptions::*is_fitted = nullptr;  ///< the rows then have it
+};
+inline constexpr Word words_of_body[] = {
+    {"K", &Body::K, &Body::sigma_K},
+    {"R", &Body::R, &Body::sigma_R},
+    {"g", &Body::g, &Body::sigma_g},
+    {"slope", &Body::slope, &Body::sigma_slope, &FitOptions::fit_slope},
+    {"wind", &Body::wind, nullptr, &FitOptions::fit_wind}};
+
+/// The bodies in the line of fitpower above so many rows; NaN for a slope and a wind that are in
+/// the rows. Empty if there is no such line, or if it has no numbers, or those of more runs than
+/// rows. Throws Error for a line that fitpower does not write.
+std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows);
 
 /// The content of the `##` lines of a run.
 struct History {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws D(v) as people write them, and the file of the option --law.
+// Laws D(v) as people write them, the line above the rows of fitpower, and the file of the option
+// --law.
 #pragma once
 
 #include <functional>
@@ -34,6 +35,12 @@ std::string words_of(const Law&);
 
 /// " slope 0.01 wind 2 height FILE", each if there is one, for `##` lines.
 std::string words_of(const Body&, const std::string& height);
+
+/// The line of fitpower above its rows: `fitpower VERSION ROUTE [LAW] K 0.5+-0.005 R 0.04 g 9.81
+/// slope 0 [wind 0] [exact]`, with a list where the runs differ, and `slope fit` where the slope is
+/// in the rows. Without the numbers if those of a run are not known.
+std::string line_of_fit(const std::string& route, const FitOptions&,
+                        const std::vector<std::optional<ShiftOf>>& of_runs);
 
 /// The options of a law, and their values.
 struct LawOptions {

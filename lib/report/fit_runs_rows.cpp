@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include "cli/fit_line.h"
-#include "cli/fit_line_written.h"
 #include "cli/law_file.h"
 #include "contact/body.h"
 #include "statistics/run_laws.h"

@@ -7,8 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "cli/fit_line.h"
-#include "cli/fit_line_written.h"
+#include "cli/history.h"
 #include "unit/catch.h"
 #include "unit/text/files.h"
 
