@@ -63,6 +63,7 @@ const char* skip_blanks(const char* at, const char* end) {
 }
 
 /// Reads the number of the field if it is wanted, else skips plain text; returns the end of either.
+/// Reading a number finds its end, and so the end of its field: the line is passed over only once.
 const char* read_plain(const char* at, const char* end, Field& field) {
   return field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
 }
@@ -103,8 +104,6 @@ void Dialect::want(std::size_t field) {
   fields_[field].wanted = true;
 }
 
-// Reading a number finds its end, and so the end of its field: the line is passed over only once.
-
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
   made_.clear();
@@ -119,14 +118,7 @@ std::span<const Field> Dialect::split(std::string_view line) {
     return {fields_.data(), count_};
   }
   for (;; ++at) {
-    Field& field = next_field();
-    const char* const first = at;
-    if (!foreign()) at = read_plain(at, end, field);
-    if (at != first && (at == end || *at == separator_)) {
-      field.text = {first, at};
-    } else {
-      at = take_text(first, end, field);
-    }
+    at = take_text(at, end, next_field());
     if (at == end) return {fields_.data(), count_};
   }
 }
@@ -181,17 +173,12 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
 }
 
 void Dialect::split_blanks(const char* at, const char* end) {
-  for (;;) {
-    at = skip_blanks(at, end);
-    if (at == end) return;
-    Field& field = next_field();
+  while ((at = skip_blanks(at, end)) != end) {
     const char* const first = at;
-    if (field.wanted) at = read_number(at, end, field.number);
-    if (at != end && !is_blank(*at)) {
-      field.number = Field().number;
-      while (at != end && !is_blank(*at)) ++at;
-    }
+    while (at != end && !is_blank(*at)) ++at;
+    Field& field = next_field();
     field.text = {first, at};
+    if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   }
 }
 

@@ -54,8 +54,6 @@ class Dialect {
  private:
   /// The separator allows decimal commas, and the minus sign U+2212.
   bool allows_foreign() const { return separator_ == '\t' || separator_ == ';'; }
-  /// The next number may have one of them.
-  bool foreign() const { return allows_foreign() && decimal_mark_ != '.'; }
   Field& next_field() {
     if (count_ == fields_.size()) fields_.emplace_back();
     return fields_[count_++];

@@ -150,16 +150,10 @@ LineKind Lines::kind_of(std::string_view line) const {
 
 /// True for a row whose cells are all blank, in quotes perhaps.
 bool Lines::is_blank_row(std::string_view line) const {
-  if (separators_.empty()) return false;
-  for (; !line.empty(); line.remove_prefix(1)) {
-    if (line.front() == quote) {  // a second one closes the cell, a third one would be text
-      if (!line.starts_with("\"\"") || line.starts_with("\"\"\"")) return false;
-      line.remove_prefix(1);
-    } else if (!is_blank(line.front()) && separators_.find(line.front()) == std::string::npos) {
-      return false;
-    }
-  }
-  return true;
+  if (separators_.empty() || line.find_first_not_of(separators_ + " \t\"") < line.size())
+    return false;
+  // Two quotes are a blank cell, and a third one would be text.
+  return replace_all(line, {{"\"\"\"", "\""}, {"\"\"", ""}}).find(quote) == std::string::npos;
 }
 
 bool Lines::another_run() const {
