@@ -43,8 +43,7 @@ constexpr Quantities::value_type quantities[] = {
 /// A run in the form that the software of such a sensor exports: comma-separated, with a line of
 /// names and blank cells.
 void write_run(Output& out, Motion& motion, const SonarOptions& sonar) {
-  out.text("Time (s),Position (m),Velocity (m/s)");
-  out.end_line();
+  out.line("Time (s),Position (m),Velocity (m/s)");
   sonar_run(motion, sonar, [&](const SonarSample& sample) {
     out.number(sample.t);
     out.text(',');
@@ -247,12 +246,11 @@ class RowWriter {
     Body body = task_.roll.body;
     body.slope *= task_.way;
     body.wind *= task_.way;
-    out_.text(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task_.roll.law),
+    out_.line(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task_.roll.law),
                           body.K, body.R, body.g, task_.way * task_.roll.v0,
                           words_of(body, task_.height),
                           task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0),
                           task_.roll.geometry == Geometry::exact ? " exact" : ""));
-    out_.end_line();
     std::vector<Column> header;
     for (const auto& quantity : task_.row) header.push_back(quantity.column());
     out_.names(header);

@@ -126,8 +126,7 @@ std::vector<Cell> row_of(const JointLaw& joint, std::size_t n) {
 
 void write_table(Output& out, const std::string& line, const std::vector<std::vector<Cell>>& rows,
                  const std::vector<std::string>& runs) {
-  out.text("## " + line);
-  out.end_line();
+  out.line("## " + line);
   std::vector<Column> columns;
   for (const Cell& cell : rows.front()) columns.push_back(cell.column);
   if (!runs.empty()) columns.push_back({"run"});

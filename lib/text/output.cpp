@@ -45,10 +45,7 @@ std::string names_line(const std::vector<Column>& columns) {
 }
 
 void Output::header(const std::string& line) {
-  if (!plain) {
-    text(line);
-    return end_line();
-  }
+  if (!plain) return this->line(line);
   const std::string names = line.substr(2);
   const bool has_run = ('\t' + names + '\t').find("\trun\t") != std::string::npos;
   const bool needs_run = !run_.empty() && !has_run;
@@ -67,7 +64,7 @@ void Output::header(const std::string& line) {
 
 void Output::run_among(const std::vector<std::string>& comments) {
   for (const std::string& comment : comments)
-    if (comment.starts_with(names_run)) text(comment), end_line();
+    if (comment.starts_with(names_run)) line(comment);
 }
 
 /// Adds the run to a row; takes any other line away, and returns false.
@@ -115,8 +112,7 @@ void Output::end_with(std::string_view line) noexcept {
   if (!written_ && buffer_.size() == 0) return;
   try {
     if (torn_) text('\n');
-    text(line);
-    end_line();
+    this->line(line);
     flush();
   } catch (...) {  // the error of the output has been reported already
   }

@@ -58,6 +58,11 @@ class Output {
     cells_ = 0;
     if (unbuffered || whole_ >= block) flush();
   }
+  /// Appends this text and ends the line.
+  void line(std::string_view whole) {
+    text(whole);
+    end_line();
+  }
   void names(const std::vector<Column>& columns) { header(names_line(columns)); }
   /// Writes a names_line(). With `plain`, throws Error if it is not that of the run before.
   void header(const std::string& line);

@@ -111,10 +111,7 @@ void RowPipe::write_head() {
   if (names_.empty()) return;
   if (any_row_) out_.end_line();
   write_comments();
-  if (!history_.empty()) {
-    out_.text(history_);
-    out_.end_line();
-  }
+  if (!history_.empty()) out_.line(history_);
   out_.header(std::exchange(names_, {}));
 }
 
@@ -136,10 +133,7 @@ void RowPipe::begin_part() {
 }
 
 void RowPipe::write_comments() {
-  for (const std::string& comment : std::exchange(comments_, {})) {
-    out_.text(comment);
-    out_.end_line();
-  }
+  for (const std::string& comment : std::exchange(comments_, {})) out_.line(comment);
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.
@@ -160,8 +154,8 @@ void RowPipe::write_rows() {
   writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
   std::span<const double> numbers(numbers_);
-  for (; first_ < lines_.size(); ++first_) {
-    const Line& line = lines_[first_];
+  for (; !lines_.empty(); lines_.pop_front()) {
+    const Line& line = lines_.front();
     const std::string_view text(texts_.data() + front_, line.size);
     if (line.kind == Kind::names) {
       std::erase_if(comments_, is_history);
@@ -184,9 +178,7 @@ void RowPipe::write_rows() {
     front_ += line.size;
   }
   numbers_.erase(numbers_.begin(), numbers_.end() - static_cast<std::ptrdiff_t>(numbers.size()));
-  if (2 * first_ >= lines_.size()) {  // amortised, each line is moved at most once
-    lines_.erase(lines_.begin(),
-                 lines_.begin() + static_cast<std::ptrdiff_t>(std::exchange(first_, 0)));
+  if (2 * front_ >= texts_.size()) {  // amortised, each line is moved at most once
     const std::size_t left = texts_.size() - front_;
     std::copy_n(texts_.data() + std::exchange(front_, 0), left, texts_.data());
     texts_.resize(left);

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <queue>
@@ -106,9 +107,9 @@ class RowPipe {
   std::vector<Column> appended_;
   std::size_t replaced_ = Reader::no_column;  // a slot
   std::size_t cut_ = Reader::no_column;       // its column in this run
-  std::vector<Line> lines_;                   // those from first_ on are not written yet
+  std::deque<Line> lines_;                    // that are not written yet
   Bytes texts_;                               // of these, one after the other
-  std::size_t first_ = 0, front_ = 0;         // front_: where the text of first_ begins
+  std::size_t front_ = 0;                     // where the text of the first begins
   std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
   std::queue<std::pair<std::size_t, std::string>> splits_;  // rows that begin a run, its name
   std::vector<double> numbers_;                             // of these rows, in order
