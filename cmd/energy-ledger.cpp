@@ -72,6 +72,8 @@ constexpr std::string_view of_momenta[] = {"p_tr", "L_trH", "L_trN"};
 
 /// What the options and the scene describe.
 struct Task {
+  std::vector<Computed<double (*)(const Moment&)>> row;  ///< what is appended, without --summary
+  double temperature = not_given;
   ShiftOf given{};              ///< the body and the geometry of the options
   std::vector<LawOfFile> laws;  ///< with their bodies; without a law that of the options
   bool uses_law = false;        ///< instead of the column D
@@ -82,6 +84,13 @@ struct Task {
   std::size_t t, x, v, D;        ///< slots of the reader
   std::string height;
   std::unique_ptr<const Road> road;
+
+  /// A mat is inclined.
+  bool inclined() const {
+    return std::ranges::any_of(laws, [](const LawOfFile& law) {
+      return law.contact.body.slope != 0 || law.contact.body.road;
+    });
+  }
 };
 
 /// The laws that the options tell, each in the wind of its run.
@@ -121,16 +130,37 @@ ShiftOf contact_of_shifts(Tool& tool, const Reader& in, ShiftOf contact) {
   return contact;
 }
 
-/// Balances the runs of `rows`, which are the reader or a pipe behind it: begin(law) is called
-/// before the rows of a run, of_row(now, balance, law) for each row, of_run(balance) at the
-/// end of each run that has rows. Returns the exit status: 2 if a closure is asked for and a run
-/// has none.
-int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& begin, auto&& of_row,
-                 auto&& of_run) {
+/// The header of --summary.
+void write_names(Output& out, const Reader& in, bool inclined) {
+  std::vector<Column> columns = {{"E_start", "J"}, {"E_end", "J"},    {"E_diss", "J"},
+                                 {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
+                                 {"closure_L", ""}};
+  if (inclined) columns.push_back({"W_g", "J"});
+  if (out.plain) out.run_among(in.comments());
+  out.names(columns);
+}
+
+/// The row of --summary for a run, with a blank cell for a closure that it does not have.
+void write_row(Output& out, const Reader& in, const Balance& balance, bool inclined) {
+  const Account& energy = balance.energy;
+  if (out.plain) out.run_among(in.comments());
+  for (const double cell : {energy.start(), energy.end(), energy.to_mat(), energy.closure(),
+                            energy.imbalance(), balance.p.closure(), balance.L.closure()}) {
+    if (std::isnan(cell)) out.cell("");
+    else out.cell(cell);
+  }
+  if (inclined) out.cell(energy.to_gravity());
+  out.end_line();
+}
+
+/// Balances the runs. The numbers of each row go into the pipe behind the reader; without one, the
+/// row of --summary is written for each run. Returns the exit status: 2 if a closure is asked for
+/// and a run has none.
+int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
   std::size_t beyond = 0;
   bool tests_nothing = false;
   bool without_closure = false;
-  while (rows.next_run()) {
+  while (pipe ? pipe->next_run() : in.next_run()) {
     if (task.law_of_scene && in.find("D"))
       fail<InputError>(
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
@@ -140,10 +170,12 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
     const auto [body, geometry] =
         task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
-    begin(law);
+    if (pipe)
+      pipe->set_history("energy-ledger " + (task.uses_law ? words_of(law.law) : "D") +
+                        words_of(law.contact.body, task.height));
     Balance balance(body, task.momenta);
     double first_height = 0;
-    while (rows.next()) {
+    while (pipe ? pipe->next() : in.next()) {
       const double v = in[task.v];
       if (task.uses_law) law.law.check_speed(v);
       const double D = task.uses_law ? law.law(v) : in[task.D];
@@ -156,10 +188,11 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
       balance.push(in[task.t], now);
       if (law.law.has_drag()) balance.push_air(in[task.t], now.P_air(law.law.air(v)));
       beyond += std::abs(D) > body.R;
-      of_row(now, balance, law);
+      for (const auto& quantity : task.row)
+        pipe->put(quantity.of({now, balance, task.temperature, law}));
     }
     if (balance.energy.empty()) continue;
-    of_run(balance);
+    if (!pipe) write_row(tool.out, in, balance, task.inclined());
     if ((task.summary || tool.checks) && std::isnan(balance.energy.closure())) {
       tool.say(in.run_name(),
                "the body has as much energy at the end of the run as at its start: there is no "
@@ -177,41 +210,12 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, auto& rows, auto&& be
   return without_closure ? 2 : 0;
 }
 
-/// The table of --summary: a row for each run, with a blank cell for a closure that it does not
-/// have.
-int write_summary(Tool& tool, Reader& in, const Task& task) {
-  const bool inclined = std::ranges::any_of(task.laws, [](const LawOfFile& law) {
-    return law.contact.body.slope != 0 || law.contact.body.road;
-  });
-  std::vector<Column> columns = {{"E_start", "J"}, {"E_end", "J"},    {"E_diss", "J"},
-                                 {"closure", ""},  {"imbalance", ""}, {"closure_p", ""},
-                                 {"closure_L", ""}};
-  if (inclined) columns.push_back({"W_g", "J"});
-  if (tool.out.plain) tool.out.run_among(in.comments());
-  tool.out.names(columns);
-  return balance_runs(
-      tool, in, task, in, [](const LawOfFile&) {},
-      [](const Ledger&, const Balance&, const LawOfFile&) {},
-      [&](const Balance& balance) {
-    const Account& energy = balance.energy;
-    if (tool.out.plain) tool.out.run_among(in.comments());
-    for (const double cell : {energy.start(), energy.end(), energy.to_mat(), energy.closure(),
-                              energy.imbalance(), balance.p.closure(), balance.L.closure()}) {
-      if (std::isnan(cell)) tool.out.cell("");
-      else tool.out.cell(cell);
-    }
-    if (inclined) tool.out.cell(energy.to_gravity());
-    tool.out.end_line();
-      });
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   Tool tool("energy-ledger", "Append the energies and the flows of energy of a rolling body.");
   Task task;
   LawOptions law;
-  double temperature = not_given;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   Body& body = task.given.body;
   tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
@@ -220,7 +224,7 @@ int main(int argc, char** argv) {
   tool.geometry(task.given.geometry);
   tool.text("--columns", columns, "NAME,...",
             "what to append: any quantities of the paper (energies and flows of energy)");
-  tool.number("--temperature", temperature, positive, "of the mat [K], for Pi_S");
+  tool.number("--temperature", task.temperature, positive, "of the mat [K], for Pi_S");
   tool.flag("--summary", task.summary,
             "print only a row for each run: energies at the start, at the end, dissipated; closure "
             "and imbalance");
@@ -234,12 +238,13 @@ int main(int argc, char** argv) {
     tool.checks = !std::isnan(task.tolerance);
     if (task.summary)
       tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
-    const auto row = chosen(columns, quantities);
+    else task.row = chosen(columns, quantities);
     const auto is_chosen = [&](std::string_view name) {
-      return std::ranges::count(row, name, [](const auto& quantity) { return quantity.name; }) > 0;
+      return std::ranges::count(task.row, name,
+                                [](const auto& quantity) { return quantity.name; }) > 0;
     };
     if (const auto name = std::ranges::find_if(of_temperature, is_chosen);
-        name != std::end(of_temperature) && std::isnan(temperature))
+        name != std::end(of_temperature) && std::isnan(task.temperature))
       fail("{} needs --temperature", *name);
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
@@ -269,19 +274,12 @@ int main(int argc, char** argv) {
     task.x = body.road ? in.need("x") : task.v;
     task.D = task.uses_law ? task.v : in.need("D");
     task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
-    if (task.summary) return write_summary(tool, in, task);
+    if (task.summary) {
+      write_names(tool.out, in, task.inclined());
+      return balance_runs(tool, in, task, nullptr);
+    }
     RowPipe pipe(in, tool.out, "");
-    for (const auto& quantity : row) pipe.append(quantity.column());
-    return balance_runs(
-        tool, in, task, pipe,
-        [&](const LawOfFile& law_of_run) {
-      pipe.set_history("energy-ledger " + (task.uses_law ? words_of(law_of_run.law) : "D") +
-                       words_of(law_of_run.contact.body, task.height));
-        },
-        [&](const Ledger& now, const Balance& balance, const LawOfFile& law_of_run) {
-      for (const auto& quantity : row)
-        pipe.put(quantity.of({now, balance, temperature, law_of_run}));
-    },
-        [](const Balance&) {});
+    for (const auto& quantity : task.row) pipe.append(quantity.column());
+    return balance_runs(tool, in, task, &pipe);
   });
 }
