@@ -237,72 +237,60 @@ void add_options(Tool& tool, SonarOptions& sonar) {
               "dropouts: share of lost echoes (0.01)");
 }
 
-/// Writes the rows of a roll: these quantities at each time.
-class RowWriter {
- public:
-  RowWriter(Output& out, const Task& task) : out_(out), task_(task), numbers_(task.row.size()) {}
+/// The `##` line and the names.
+void write_head(Output& out, const Task& task) {
+  Body body = task.roll.body;
+  body.slope *= task.way;
+  body.wind *= task.way;
+  out.line(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task.roll.law), body.K,
+                       body.R, body.g, task.way * task.roll.v0, words_of(body, task.height),
+                       task.t0 == 0 ? "" : fmt::format(" t0 {}", task.t0),
+                       task.roll.geometry == Geometry::exact ? " exact" : ""));
+  std::vector<Column> names;
+  for (const auto& quantity : task.row) names.push_back(quantity.column());
+  out.names(names);
+}
 
-  void write_header() const {
-    Body body = task_.roll.body;
-    body.slope *= task_.way;
-    body.wind *= task_.way;
-    out_.line(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task_.roll.law),
-                          body.K, body.R, body.g, task_.way * task_.roll.v0,
-                          words_of(body, task_.height),
-                          task_.t0 == 0 ? "" : fmt::format(" t0 {}", task_.t0),
-                          task_.roll.geometry == Geometry::exact ? " exact" : ""));
-    std::vector<Column> header;
-    for (const auto& quantity : task_.row) header.push_back(quantity.column());
-    out_.names(header);
-  }
+void write_row(Output& out, const Task& task, double t, Motion& motion) {
+  const Moment now{t, t - task.t0, task.way, motion, task.law_of_file};
+  motion.seek(now.since);
+  for (const auto& quantity : task.row) out.cell(0 + quantity.of(now));  // `0 +` makes -0 a 0
+  out.end_line();
+}
 
-  void write(double t, Motion& motion) {
-    const Moment now{t, t - task_.t0, task_.way, motion, task_.law_of_file};
-    motion.seek(now.since);
-    // Computed before any is written: a tenth faster than one by one. `0 +` makes -0 a 0.
-    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = 0 + task_.row[i].of(now);
-    for (const double number : numbers_) out_.cell(number);
-    out_.end_line();
-  }
-
-  /// At the times in the column t of a file; each run of the file starts the roll anew.
-  void write_at(Reader& in) {
-    const auto t = in.need("t");
-    for (bool first = true; in.next_run();) {
-      std::unique_ptr<Motion> motion;
-      while (in.next()) {
-        if (in[t] < task_.t0)
-          fail("t = {} is before the roll, which begins at {}", in[t], task_.t0);
-        if (!motion) {
-          if (!std::exchange(first, false)) out_.end_line();
-          out_.run_among(in.comments());
-          write_header();
-          motion = task_.start();
-        }
-        write(in[t], *motion);
+/// Rows at the times in the column t of a file; each run of the file starts the roll anew.
+void write_at(Output& out, const Task& task, Reader& in) {
+  const auto t = in.need("t");
+  for (bool first = true; in.next_run();) {
+    std::unique_ptr<Motion> motion;
+    while (in.next()) {
+      if (in[t] < task.t0) fail("t = {} is before the roll, which begins at {}", in[t], task.t0);
+      if (!motion) {
+        if (!std::exchange(first, false)) out.end_line();
+        out.run_among(in.comments());
+        write_head(out, task);
+        motion = task.start();
       }
+      write_row(out, task, in[t], *motion);
     }
   }
+}
 
-  /// Every dt up to `end`, and there too if it is the stop.
-  void write_every(double dt, Motion& motion, double end, bool to_the_stop) {
-    // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
-    const double most = (end - task_.t0) / dt, margin = 1e-9 + 1e-15 * most,
-                 steps = std::floor(most + (to_the_stop ? -margin : margin));
-    if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
-    write_header();
-    // If 1/dt is a whole number (25 Hz), the times after t0 are the doubles nearest to k/rate.
-    const double rate = std::round(1 / dt);
-    for (double k = 0; k <= steps; ++k)
-      write(task_.t0 + (rate * dt == 1 ? k / rate : k * dt), motion);
-    if (to_the_stop) write(end, motion);
-  }
-
- private:
-  Output& out_;
-  const Task& task_;
-  std::vector<double> numbers_;
-};
+/// Rows every dt up to `end`, and there too if it is the stop.
+void write_every(Output& out, const Task& task, double dt, Motion& motion, double end,
+                 bool to_the_stop) {
+  // The margin keeps rounding of end / dt from adding a row beside the stop or losing the last.
+  const double most = (end - task.t0) / dt;
+  const double margin = 1e-9 + 1e-15 * most;
+  const double steps = std::floor(most + (to_the_stop ? -margin : margin));
+  if (steps > 1e9) fail("these are {:.3g} rows; the most is 1e9: --dt is too small", steps);
+  write_head(out, task);
+  // If 1/dt is a whole number (25 Hz), the times after t0 are the doubles nearest to k/rate.
+  const double rate = std::round(1 / dt);
+  for (double k = 0; k <= steps; ++k)
+    write_row(out, task, task.t0 + (rate * dt == 1 ? k / rate : k * dt), motion);
+  if (to_the_stop) write_row(out, task, end, motion);
+}
 
 }  // namespace
 
@@ -332,7 +320,6 @@ int main(int argc, char** argv) {
     task.row = chosen(columns, quantities);
     task.complete(tool);
     check_options(tool, task);
-    RowWriter rows(tool.out, task);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
@@ -344,10 +331,10 @@ int main(int argc, char** argv) {
       if (!to_the_stop) sonar.until = until;
       write_run(tool.out, *motion, sonar);
     } else if (times_file.empty()) {
-      rows.write_every(dt, *motion, end, to_the_stop);
+      write_every(tool.out, task, dt, *motion, end, to_the_stop);
       if (task.foretells && to_the_stop) say_stop(tool, task, *motion, end);
     } else {
-      rows.write_at(tool.read_file(times_file, {"t"}));
+      write_at(tool.out, task, tool.read_file(times_file, {"t"}));
     }
     return 0;
   });
