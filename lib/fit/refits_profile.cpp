@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -14,89 +15,51 @@
 namespace rolling {
 namespace {
 
-/// The numbers of a fit at another theta.
-std::vector<FittedNumber> numbers_at(const Fitted& fit, const std::vector<double>& theta) {
-  // In two statements: where memory fails in the second part of an aggregate, g++ 12 destroys the
-  // first part twice.
-  Fitted there{.minimum = {theta}};
-  there.model = fit.model;
-  read_off(there);
-  return there.numbers();
+/// The raw columns of a fit at a few times of each run, and what they are if the model is linear
+/// around the minimum.
+struct FewRows {
+  System columns;
+  System linear;
+  bool without_mean;  // the filters have taken the mean of positions away
+};
+
+FewRows few_rows(const Fitted& fit) {
+  constexpr std::size_t few = 24;
+  std::vector<ObservedRun> runs = fit.model.runs();
+  for (ObservedRun& run : runs) {
+    std::vector<double> times;
+    const std::size_t n = run.t.size();
+    const std::size_t rows = std::min(n, few);
+    for (std::size_t i = 0; i < rows; ++i)
+      times.push_back(run.t[rows > 1 ? i * (n - 1) / (rows - 1) : 0]);
+    run.t = std::move(times);
+    run.y.assign(rows, 0);
+    run.H = {};
+  }
+  const System columns = system_of(Model(std::move(runs), fit.parameters()));
+  return {columns, linearised(columns, fit.minimum.theta),
+          means_taken(fit.model.runs(), fit.parameters()) > 0};
 }
 
-/// The raw columns of a fit at a few times of each run, with their derivatives: they show how far a
-/// model is linear.
-class FewRows {
- public:
-  explicit FewRows(const Fitted& fit) : theta_(fit.minimum.theta) {
-    constexpr std::size_t few = 24;
-    std::vector<ObservedRun> runs = fit.model.runs();
-    for (ObservedRun& run : runs) {
-      std::vector<double> times;
-      const std::size_t n = run.t.size();
-      const std::size_t rows = std::min(n, few);
-      for (std::size_t i = 0; i < rows; ++i)
-        times.push_back(run.t[rows > 1 ? i * (n - 1) / (rows - 1) : 0]);
-      run.t = std::move(times);
-      run.H = {};
-    }
-    model_ = Model(std::move(runs), fit.parameters());
-    for (std::size_t r = 0; r < model_.runs().size(); ++r) rows_.push_back(rows_at(theta_, r));
-  }
-
-  /// The size of what is not linear on the step to this theta, relative to what is. Throws Error if
-  /// the model has no values there.
-  double bend(const std::vector<double>& to) const {
-    const std::size_t q = model_.parameters().columns();
-    const std::size_t own = model_.parameters().own();
-    double bent = 0;
-    double straight = 0;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const Rows there = rows_at(to, r);
-      std::vector<double> by_step(there.values.size());
-      std::vector<double> off(there.values.size());
-      for (std::size_t i = 0; i < off.size(); ++i) {
-        for (std::size_t j = 0; j < q; ++j) {
-          const std::size_t place = j < own ? r * own + j : (rows_.size() - 1) * own + j;
-          by_step[i] += rows_[r].slopes[i * q + j] * (to[place] - theta_[place]);
-        }
-        off[i] = there.values[i] - rows_[r].values[i] - by_step[i];
-      }
-      bent += spread(off);
-      straight += spread(by_step);
-    }
-    return std::sqrt(bent / straight);
-  }
-
- private:
-  struct Rows {
-    std::vector<double> values;
-    std::vector<double> slopes;
-  };
-  Rows rows_at(const std::vector<double>& theta, std::size_t r) const {
-    const RawModel at = model_.raw(theta, r);
-    const std::vector<double>& t = model_.runs()[r].t;
-    const std::size_t q = model_.parameters().columns();
-    Rows rows{{}, std::vector<double>(t.size() * q)};
-    for (std::size_t i = 0; i < t.size(); ++i)
-      rows.values.push_back(at(t[i], &rows.slopes[i * q], 1));
-    return rows;
-  }
-  /// The sum of squares. Without an x0 the filters have taken the mean of positions away.
-  double spread(std::vector<double> x) const {
-    if (model_.is_roll() && model_.runs().front().column == Quantity::x &&
-        !model_.parameters().has_x0()) {
+/// The size of what is not linear on this step from the minimum, relative to what is. Throws Error
+/// if the model has no values there.
+double bend(const FewRows& rows, const std::vector<double>& minimum,
+            const std::vector<double>& step) {
+  const std::vector<double> here = evaluated(rows.columns, minimum).f;
+  const std::vector<double> ahead = evaluated(rows.linear, step).f;
+  const std::vector<double> there = evaluated(rows.columns, moved(minimum, step)).f;
+  const auto squares = [&](std::vector<double> to, const std::vector<double>& from) {
+    std::ranges::transform(to, from, to.begin(), std::minus());
+    for (const auto run : by_run(to, rows.columns.runs)) {
       double mean = 0;
-      for (const double value : x) mean += value / static_cast<double>(x.size());
-      for (double& value : x) value -= mean;
+      if (rows.without_mean)
+        mean = std::accumulate(run.begin(), run.end(), 0.0) / static_cast<double>(run.size());
+      for (double& x : run) x -= mean;
     }
-    return dot(x, x);
-  }
-
-  std::vector<double> theta_;
-  Model model_;
-  std::vector<Rows> rows_;
-};
+    return dot(to, to);
+  };
+  return std::sqrt(squares(there, ahead) / squares(ahead, here));
+}
 
 /// The profile of one number of a fit: how the sum of squares rises if the number is held at
 /// another value and all parameters are fitted again.
@@ -121,11 +84,18 @@ class Profile {
     Minimum minimum = {};
   };
   Visit start() const { return {0, 0, 0, fit_.minimum}; }
-  /// theta where the number would have changed by this if the model were linear around a place.
+  /// The number at another theta.
+  FittedNumber at(const std::vector<double>& theta) const {
+    // In two statements: where memory fails in the second part of an aggregate, g++ 12 destroys the
+    // first part twice.
+    Fitted there{.minimum = {theta}};
+    there.model = fit_.model;
+    read_off(there);
+    return there.numbers()[j_];
+  }
+  /// The step from a place to where the number would have changed by this if the model were linear.
   std::vector<double> ahead(const Visit& from, double change) const {
-    const std::vector<double>& theta = from.minimum.theta;
-    const std::vector<double> g = numbers_at(fit_, theta)[j_].gradient;
-    return moved(theta, from.minimum.R.step_that_changes(g, change - from.change));
+    return from.minimum.R.step_that_changes(at(from.minimum.theta).gradient, change - from.change);
   }
   /// Fits with the number changed by this, as far as it can. The search starts at a place nearby,
   /// and ahead of it.
@@ -133,10 +103,10 @@ class Profile {
     const double change = to * (1 + 1 / (pull * pull));  // as the other rows pull it back
     const System system = held(best_.value + change);
     Visit there{to, to, INFINITY};
-    improve(there.minimum, system, ahead(from, change));
+    improve(there.minimum, system, moved(from.minimum.theta, ahead(from, change)));
     improve(there.minimum, system, from.minimum.theta);
     if (!std::isfinite(there.minimum.rss)) return there;
-    there.change = numbers_at(fit_, there.minimum.theta)[j_].value - best_.value;
+    there.change = at(there.minimum.theta).value - best_.value;
     const double row = weight() * (there.change - change);
     const double rise = std::max(there.minimum.rss - row * row - fit_.minimum.rss, 0.0);
     there.distance = std::sqrt(rise * variance_) / sigma_;
@@ -154,18 +124,13 @@ class Profile {
     ++system.runs.front();
     system.evaluate = [this, value, rows = fit_.system()](const std::vector<double>& theta,
                                                           const TakeRows& take) {
-      const FittedNumber number = numbers_at(fit_, theta)[j_];
       rows.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-        if (run > 0) return take(run, f, J);
-        std::vector<double> longer_f(f.begin(), f.end());
-        longer_f.push_back(weight() * (number.value - value));
-        std::vector<double> longer_J;
-        for (std::size_t j = 0; j < number.gradient.size(); ++j) {
-          const auto column = J.subspan(j * f.size(), f.size());
-          longer_J.insert(longer_J.end(), column.begin(), column.end());
-          longer_J.push_back(weight() * number.gradient[j]);
-        }
-        take(run, longer_f, longer_J);
+        take(run, f, J);
+        if (run > 0) return;
+        FittedNumber number = at(theta);
+        double off = weight() * (number.value - value);
+        for (double& by : number.gradient) by *= weight();
+        take(run, {&off, 1}, number.gradient);
       });
     };
     return system;
@@ -182,17 +147,18 @@ constexpr double normal = 1.96;  // the 95 % of a normal distribution lie within
 
 /// True if the number or the model is so far from linear over its interval that only fits can tell
 /// what the interval covers.
-bool in_doubt(const Fitted& fit, const FewRows& rows, const Profile& profile, std::size_t j) {
+bool in_doubt(const FewRows& rows, const Profile& profile) {
   constexpr double rounding = 1e-7;  // a step in theta whose bend is not seen
-  const std::vector<double>& theta = fit.minimum.theta;
+  const Profile::Visit start = profile.start();
+  const std::vector<double>& theta = start.minimum.theta;
   for (const double change : {-normal * profile.sigma(), normal * profile.sigma()}) try {
-      const std::vector<double> there = profile.ahead(profile.start(), change);
-      double step = 0;
-      for (std::size_t i = 0; i < theta.size(); ++i)
-        step = std::max(step, std::abs(there[i] - theta[i]) / std::max(1.0, std::abs(theta[i])));
-      if (step < rounding) continue;
-      const double off = (numbers_at(fit, there)[j].value - profile.value()) / change - 1;
-      if (!(std::abs(off) < levels::bent && rows.bend(there) < levels::bent)) return true;
+      const std::vector<double> step = profile.ahead(start, change);
+      double size = 0;
+      for (std::size_t i = 0; i < step.size(); ++i)
+        size = std::max(size, std::abs(step[i]) / std::max(1.0, std::abs(theta[i])));
+      if (size < rounding) continue;
+      const double off = (profile.at(moved(theta, step)).value - profile.value()) / change - 1;
+      if (!(std::abs(off) < levels::bent && bend(rows, theta, step) < levels::bent)) return true;
     } catch (const Error&) {  // there is no roll
       return true;
     }
@@ -237,11 +203,11 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
                                             const FitOptions& options) {
   std::vector<Interval> found;
   const std::size_t shared = of_all.coefficients.size() + of_all.scene.size();
-  const FewRows few(of_all);
+  const FewRows few = few_rows(of_all);
   std::vector<std::size_t> doubtful;
   for (std::size_t j = 0; j < shared; ++j) {
     const double sigma = std::sqrt(noise.covariance[j][j]);
-    if (sigma > 0 && in_doubt(of_all, few, Profile(of_all, j, sigma), j)) doubtful.push_back(j);
+    if (sigma > 0 && in_doubt(few, Profile(of_all, j, sigma))) doubtful.push_back(j);
   }
   if (doubtful.empty()) return found;
   const Fitted fit = of_means(of_all, options);
