@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -145,72 +146,46 @@ std::optional<Fitted> known_roll(const std::vector<Run>& runs, const FitOptions&
   }
 }
 
-/// ln D - b ln v of one row of a line: its derivatives by the noise of the raw readings from number
-/// `first` on, and its bias.
-struct LogarithmOfRow {
-  std::size_t first;
-  std::vector<double> by_noise;
-  double bias;
+/// ln D - b ln v of the rows of one run under the roll that made them, as far as their noise goes:
+/// its derivatives by the accelerations, with the sign of those by the speeds, and its bias.
+struct Logarithms {
+  std::vector<double> by_a, by_v, bias;
 };
 
-/// ln D - b ln v of the rows of one run under the roll that made them.
-class LogarithmsOfRun {
- public:
-  LogarithmsOfRun(const Fitted& roll, std::size_t r, const Run& run, const Response& response,
-                  const Rows& rows)
-      : law_(*roll.law().power()), variance_(roll.noise_of_roll->variance),
-        way_(roll.model.runs()[r].way), by_(*run.shift_of),
-        D_(response.of[Quantity::D]->of_rows(rows)), v_(response.of[Quantity::v]->of_rows(rows)) {
-    std::vector<double> raw = roll.model.raw_column(roll.minimum.theta, r);
-    for (double& value : raw) value *= way_;  // along the motion
-    accelerations_ = D_.times(raw);
-    speeds_ = v_.times(raw);
-  }
-  std::size_t rows() const { return speeds_.size(); }
-  std::size_t readings() const { return D_.columns(); }
-
-  LogarithmOfRow row(std::size_t i) const {
-    const double v = speeds_[i];
-    const double D = shift(accelerations_[i]);
-    LogarithmOfRow row{std::min(D_.first(i), v_.first(i)), {}, 0};
-    row.by_noise.resize(std::max(D_.end(i), v_.end(i)) - row.first);
-    const auto add = [&](const BandMatrix& H, double factor) {
-      for (std::size_t k = H.first(i); k < H.end(i); ++k)
-        row.by_noise[k - row.first] += factor * H.row(i)[k - H.first(i)];
-    };
-    add(D_, minus_log_D_by_acceleration(i, D));
-    if (v > 0) add(v_, law_.b / v);
-    const double s = std::sqrt(variance_ * dot(row.by_noise, row.by_noise));
+/// H_a and H_v are the filters of the accelerations and the speeds of these rows.
+Logarithms logarithms_of(const Fitted& roll, std::size_t r, const ShiftOf& by,
+                         const BandMatrix& H_a, const BandMatrix& H_v) {
+  constexpr double step = 1e-4;  // of a difference quotient
+  const PowerLaw law = *roll.law().power();
+  const double way = roll.model.runs()[r].way;
+  std::vector<double> raw = roll.model.raw_column(roll.minimum.theta, r);
+  for (double& value : raw) value *= way;  // along the motion
+  const std::vector<double> speeds = H_v.times(raw);
+  const std::vector<double> accelerations = H_a.times(raw);
+  const auto shift = [&](double a) {
+    return way * shift_from_acceleration(by.body, by.geometry, way * a);
+  };
+  Logarithms all;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const double v = speeds[i];
+    const double a = accelerations[i];
+    const double D = shift(a);
+    // If D of the roll is not positive, its relative noise is infinite; 1e100 stands for that.
+    const double by_a = D > 0 ? (shift((1 - step) * a) / D - 1) / (step * a) : 1e100;
+    const double by_v = v > 0 ? law.b / v : 0;
+    const double squares = by_a * by_a * dot(H_a, i, H_a, i) +
+                           2 * by_a * by_v * dot(H_a, i, H_v, i) +
+                           by_v * by_v * dot(H_v, i, H_v, i);
+    const double s = std::sqrt(roll.noise_of_roll->variance * squares);
     const Estimate log_noise = s > 0 && std::isfinite(s) ? logarithm_of_noise(s) : Estimate{};
     const double factor = log_noise.sigma > 0 ? log_noise.sigma / s : 0;
-    for (double& by : row.by_noise) by *= factor;
-    if (D > 0) row.bias = log_noise.value;
-    if (D > 0 && v > 0) row.bias += std::log(D / law_(v));
-    return row;
+    all.by_a.push_back(factor * by_a);
+    all.by_v.push_back(factor * by_v);
+    all.bias.push_back(D > 0 ? log_noise.value : 0);
+    if (D > 0 && v > 0) all.bias.back() += std::log(D / law(v));
   }
-
- private:
-  double shift(double a) const {
-    return way_ * shift_from_acceleration(by_.body, by_.geometry, way_ * a);
-  }
-  /// By a difference quotient. If D of the roll is not positive, its relative noise is infinite;
-  /// 1e100 stands for that.
-  double minus_log_D_by_acceleration(std::size_t i, double D) const {
-    constexpr double step = 1e-4;
-    if (!(D > 0)) return 1e100;
-    const double a = accelerations_[i];
-    return (shift((1 - step) * a) / D - 1) / (step * a);
-  }
-
-  PowerLaw law_;
-  double variance_;
-  double way_;
-  ShiftOf by_;
-  BandMatrix D_;
-  BandMatrix v_;
-  std::vector<double> accelerations_;
-  std::vector<double> speeds_;
-};
+  return all;
+}
 
 /// Adds the noise and the bias of ln D - b ln v to a line: those of the roll, observed through the
 /// known filters. The bias of a point has two causes: smoothing bends the curve D(v), and the
@@ -219,20 +194,24 @@ class LogarithmsOfRun {
 void carry_noise(Fitted& line, const std::vector<Run>& runs, const std::vector<Rows>& rows,
                  const std::vector<Response>& responses, Fitted roll) {
   const Matrix Q = orthonormal(line.system(), line.minimum);
+  std::vector<std::size_t> sizes;
+  for (const Rows& of_run : rows) sizes.push_back(of_run.size());
+  const auto Q_of = rows_by_run(Q, sizes);
   Matrix B(Q.size());
   std::vector<double> along(Q.size());  // Q^T bias
-  std::size_t point = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const LogarithmsOfRun logarithms(roll, r, runs[r], responses[r], rows[r]);
-    const std::size_t begin = B.front().size();
-    for (std::vector<double>& column : B) column.resize(begin + logarithms.readings());
-    for (std::size_t i = 0; i < logarithms.rows(); ++i, ++point) {
-      const LogarithmOfRow row = logarithms.row(i);
-      for (std::size_t j = 0; j < Q.size(); ++j) {
-        along[j] += Q[j][point] * row.bias;
-        for (std::size_t k = 0; k < row.by_noise.size(); ++k)
-          B[j][begin + row.first + k] += Q[j][point] * row.by_noise[k];
-      }
+    const BandMatrix H_a = responses[r].of[Quantity::D]->of_rows(rows[r]);
+    const BandMatrix H_v = responses[r].of[Quantity::v]->of_rows(rows[r]);
+    const Logarithms logarithms = logarithms_of(roll, r, *runs[r].shift_of, H_a, H_v);
+    for (std::size_t j = 0; j < Q.size(); ++j) {
+      const auto weighted = [&](std::vector<double> x) {
+        std::ranges::transform(x, Q_of[r][j], x.begin(), std::multiplies());
+        return x;
+      };
+      along[j] += dot(Q_of[r][j], logarithms.bias);
+      std::vector<double> by_noise = H_a.transposed_times(weighted(logarithms.by_a));
+      by_noise = moved(by_noise, H_v.transposed_times(weighted(logarithms.by_v)));
+      B[j].insert(B[j].end(), by_noise.begin(), by_noise.end());
     }
   }
   line.noise_of_roll = std::move(roll.noise_of_roll);
