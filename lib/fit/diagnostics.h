@@ -36,9 +36,7 @@ double few_reversals(const Fitted&);
 /// (Rosner 1983, Technometrics 25, 165): a burst does not hide behind itself. Where one is far off,
 /// the readings are compared with the robust roll, since they bend the least-squares one. For known
 /// filters the readings are those of the raw column. Returns the reading that is furthest off, of
-/// the run where that is most; the count is 0 where none is.
-OffReadings off_readings(const Fitted&);
-/// The same of a fit that is robust itself.
-OffReadings off_readings_of_robust(const Fitted&);
+/// the run where that is most; the count is 0 where none is. `robust`: the fit is the robust roll.
+OffReadings off_readings(Fitted, bool robust);
 
 }  // namespace rolling

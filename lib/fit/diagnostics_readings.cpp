@@ -95,28 +95,21 @@ OffReadings around(const Fitted& fit, bool robust) {
   return found;
 }
 
-bool has_readings(const Fitted& fit) { return fit.is_roll() && fit.degrees_left() > 0; }
-
-OffReadings around_robust(Fitted fit, const std::vector<double>& theta) {
-  fit.minimum = evaluated(fit.system(), theta);
-  return around(fit, true);
-}
-
 }  // namespace
 
-OffReadings off_readings_of_robust(const Fitted& fit) {
-  return has_readings(fit) ? around_robust(fit, fit.minimum.theta) : OffReadings{};
-}
-
-OffReadings off_readings(const Fitted& fit) {
-  if (!has_readings(fit)) return {};
+OffReadings off_readings(Fitted fit, bool robust) {
+  if (!fit.is_roll() || fit.degrees_left() == 0) return {};
+  if (robust) {
+    fit.minimum = evaluated(fit.system(), fit.minimum.theta);
+    return around(fit, true);
+  }
   const OffReadings found = around(fit, false);
   if (found.distance < 5) return {};
   // Readings far off have bent the roll to themselves, away from where it is linear; a robust one
   // follows only those at the ends of a short run.
   try {
-    const OffReadings off =
-        around_robust(fit, minimise_robust(fit.system(), {fit.minimum.theta}).theta);
+    fit.minimum = minimise_robust(fit.system(), {fit.minimum.theta});
+    const OffReadings off = off_readings(std::move(fit), true);
     return off.count > 0 ? off : found;
   } catch (const Error&) {
     return found;

@@ -180,7 +180,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
   OffReadings off{};  // a robust fit lets them count little
-  if (!options.robust) off = off_readings(found);
+  if (!options.robust) off = off_readings(found, false);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
@@ -216,7 +216,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
 /// The readings that are off the robust roll; none where there is no robust roll either.
 OffReadings off_robust_roll(Route route, const std::vector<Run>& runs, FitOptions options) try {
   options.robust = true;
-  return off_readings_of_robust(fit_route(route, runs, options));
+  return off_readings(fit_route(route, runs, options), true);
 } catch (const Error&) {
   return {};
 }
