@@ -30,7 +30,7 @@ void read_off(Fitted& fit) {
   const std::vector<double>& theta = fit.minimum.theta;
   const Parameters& q = fit.parameters();
   const Law law = q.law(theta);
-  const auto number = [&](double value, const Parameters::Derivatives& by) {
+  const auto number = [&](double value, const Parameters::Numbers& by) {
     FittedNumber result{value, std::vector<double>(q.columns())};
     q.chain(result.gradient.data(), 1, law.c(0), by);
     return result;
@@ -38,23 +38,23 @@ void read_off(Fitted& fit) {
   fit.coefficients.clear();
   fit.v0.clear();
   fit.x0.clear();
-  std::array<double, LawForm::most> by_c{};
-  for (std::size_t j = 0; j < law.size(); ++j, by_c = {}) {
-    const double value = law.in_SI(j, by_c);
-    if (q.fixed(j)) by_c = {};
-    fit.coefficients.push_back(number(q.fixed(j).value_or(value), {by_c}));
+  for (std::size_t j = 0; j < law.size(); ++j) {
+    Parameters::Numbers by{};
+    const double value = law.in_SI(j, std::span(by).subspan(q.first_of_law));
+    if (q.fixed(j)) by = {};
+    fit.coefficients.push_back(number(q.fixed(j).value_or(value), by));
   }
   if (!fit.is_roll()) return;
   fit.scene.clear();
   for (std::size_t i = 0; i < scene_numbers.size(); ++i) {
-    Parameters::Derivatives by{by_c};
-    by.scene[i] = 1;
+    Parameters::Numbers by{};
+    by[q.first_of_scene + i] = 1;
     if (q.fits(i)) fit.scene.push_back(number(q.body(theta, {}).*scene_numbers[i].value, by));
   }
   for (std::size_t r = 0; r < fit.model.runs().size(); ++r) {
     const double way = fit.model.runs()[r].way;
-    fit.v0.push_back(number(way * q.v0(theta, r), {by_c, way}));
-    if (q.has_x0()) fit.x0.push_back(number(q.x0(theta, r), {by_c, 0, 1}));
+    fit.v0.push_back(number(way * q.v0(theta, r), {way}));
+    if (q.has_x0()) fit.x0.push_back(number(q.x0(theta, r), {0, 1}));
   }
 }
 

@@ -54,65 +54,38 @@ double way_before_turn(bool position, const std::vector<double>& t,
 
 Parameters::Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref,
                        double x_ref)
-    : fixed_{options.a, options.b}, v0_(options.v0), x0_(options.x0), position_(position),
-      runs_(runs), v_ref_(v_ref), x_ref_(x_ref), v_unit_(v_ref) {
-  for (std::size_t i = 0; i < asked_.size(); ++i) asked_[i] = options.*scene_numbers[i].is_fitted;
+    : fixed_{options.v0, options.x0, options.a, options.b, 0}, unit_{v_ref, x_ref, 1, 1, 1},
+      fit_wind_(options.fit_wind), position_(position), runs_(runs), v_unit_(v_ref) {
+  if (options.v0) fixed_[0] = std::abs(*options.v0);
+  if (!position) fixed_[1] = 0;
+  for (std::size_t i = 0; i < scene_numbers.size(); ++i) {
+    unit_[first_of_scene + i] = scene_numbers[i].unit;
+    if (i == place_of_wind || !(options.*scene_numbers[i].is_fitted))
+      fixed_[first_of_scene + i] = 0;
+  }
 }
 
 Parameters::Parameters(const FitOptions& options, double v_unit)
-    : fixed_{options.a, options.b}, v0_(0), v_unit_(v_unit) {}
+    : Parameters(options, false, 0, v_unit, 1) {
+  fixed_[0] = 0;
+  std::fill_n(&fixed_[first_of_scene], scene_numbers.size(), 0);
+}
 
 Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) const {
   Parameters other = *this;
   other.form_ = &form;
   other.D_unit_ = D_unit;
   other.v_unit_ = v_unit;
-  other.fixed_ = {};
+  std::fill_n(&other.fixed_[first_of_law], LawForm::most, 0);
+  std::fill_n(&other.fixed_[first_of_law], form.coefficients.size(), std::nullopt);
+  if (fit_wind_ && form.drag >= 0) other.fixed_[first_of_scene + place_of_wind].reset();
   return other;
 }
 
 Parameters Parameters::with_exponent(double b) const {
   Parameters other = *this;
-  other.fixed_[1] = b;
+  other.fixed_[first_of_law + 1] = b;
   return other;
-}
-
-std::size_t Parameters::coefficients() const {
-  std::size_t free = 0;
-  for (std::size_t j = 0; j < form_->coefficients.size(); ++j) free += !fixed_[j];
-  return free;
-}
-
-std::size_t Parameters::scene() const {
-  std::size_t all = 0;
-  for (std::size_t i = 0; i < asked_.size(); ++i) all += fits(i);
-  return all;
-}
-
-Law Parameters::law(const std::vector<double>& theta) const {
-  std::array<double, LawForm::most> c{};
-  std::size_t next = count() - shared();
-  for (std::size_t j = 0; j < form_->coefficients.size(); ++j)
-    c[j] = fixed_[j] ? *fixed_[j] : theta[next++];
-  if (is_power())
-    c[0] = fixed_[0] ? *fixed_[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
-  return {*form_, c, D_unit_, v_unit_};
-}
-
-double Parameters::v0(const std::vector<double>& theta, std::size_t run) const {
-  return v0_ ? std::abs(*v0_) : theta[run * own()] * v_ref_;
-}
-
-double Parameters::x0(const std::vector<double>& theta, std::size_t run) const {
-  if (!position_) return 0;
-  return x0_ ? *x0_ : theta[run * own() + !v0_] * x_ref_;
-}
-
-Body Parameters::body(const std::vector<double>& theta, Body given) const {
-  std::size_t at = count() - scene();
-  for (std::size_t i = 0; i < asked_.size(); ++i)
-    if (fits(i)) given.*scene_numbers[i].value = theta[at++] * scene_numbers[i].unit;
-  return given;
 }
 
 Parameters Parameters::of_runs(std::size_t n) const {
@@ -123,8 +96,39 @@ Parameters Parameters::of_runs(std::size_t n) const {
 
 Parameters Parameters::of_one_run() const {
   Parameters one = of_runs(1);
-  one.asked_ = {};
+  std::fill_n(&one.fixed_[first_of_scene], scene_numbers.size(), 0);
   return one;
+}
+
+std::size_t Parameters::free(std::size_t first, std::size_t end) const {
+  std::size_t all = 0;
+  for (std::size_t i = first; i < end; ++i) all += !fixed_[i];
+  return all;
+}
+
+Parameters::Numbers Parameters::numbers(const std::vector<double>& theta, std::size_t run) const {
+  Numbers all{};
+  std::size_t next = run * own();
+  for (std::size_t i = 0; i < most; ++i) {
+    if (i == first_of_law) next = runs_ * own();
+    all[i] = fixed_[i] ? *fixed_[i] : theta[next++] * unit_[i];
+  }
+  return all;
+}
+
+Law Parameters::law(const std::vector<double>& theta) const {
+  const Numbers all = numbers(theta, 0);
+  std::array<double, LawForm::most> c{};
+  std::copy_n(&all[first_of_law], c.size(), c.begin());
+  if (is_power()) c[0] = fixed(0) ? c[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
+  return {*form_, c, D_unit_, v_unit_};
+}
+
+Body Parameters::body(const std::vector<double>& theta, Body given) const {
+  const Numbers all = numbers(theta, 0);
+  for (std::size_t i = 0; i < scene_numbers.size(); ++i)
+    if (fits(i)) given.*scene_numbers[i].value = all[first_of_scene + i];
+  return given;
 }
 
 std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
@@ -136,46 +140,31 @@ std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
 }
 
 std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v0,
-                                      const std::vector<double>& x0, double slope,
-                                      double steepness) const {
+                                      const std::vector<double>& x0, double slope) const {
   std::vector<double> all;
+  const auto put = [&](std::size_t i, double value) {
+    if (!fixed_[i]) all.push_back(value / unit_[i]);
+  };
   for (std::size_t r = 0; r < runs_; ++r) {
-    if (!v0_) all.push_back(v0[r] / v_ref_);
-    if (free_x0()) all.push_back(x0[r] / x_ref_);
+    put(0, v0[r]);
+    put(1, x0[r]);
   }
-  if (!fixed_[0]) all.push_back(std::log(law(v_unit_)));
-  if (!fixed_[1]) all.push_back(law.b);
-  if (fits(0)) all.push_back(slope / scene_numbers[0].unit);
-  if (fits(1)) all.push_back(steepness / scene_numbers[1].unit);
+  put(first_of_law, std::log(law(v_unit_)));
+  put(first_of_law + 1, law.b);
+  put(first_of_scene, slope);
+  put(first_of_scene + 1, 1);
   return all;
 }
 
-std::vector<double> Parameters::theta_of(const Parameters& other,
-                                         const std::vector<double>& theta) const {
-  std::vector<double> v0s;
-  std::vector<double> x0s;
-  for (std::size_t r = 0; r < runs_; ++r) {
-    v0s.push_back(other.v0(theta, r));
-    x0s.push_back(other.x0(theta, r));
-  }
-  const Body body = other.body(theta, {});
-  return this->theta(*other.law(theta).power(), v0s, x0s, body.slope, body.steepness);
-}
-
 void Parameters::chain(double* to, std::size_t stride, double c0,
-                       const Derivatives& by) const noexcept {
-  const auto put = [&](double value) { *std::exchange(to, to + stride) = value; };
-  if (!v0_) put(by.v0 * v_ref_);
-  if (free_x0()) put(by.x0 * x_ref_);
-  for (std::size_t j = 0; j < form_->coefficients.size(); ++j) {
-    if (fixed_[j]) continue;
-    double by_theta = by.by_c[j];
-    if (is_power() && j == 0) by_theta *= c0;  // theta holds ln c0
-    if (j == 1 && fixed_[0]) by_theta += c0 * std::log(v_unit_) * by.by_c[0];
-    put(by_theta);
+                       const Numbers& by) const noexcept {
+  for (std::size_t i = 0; i < most; ++i) {
+    if (fixed_[i]) continue;
+    double by_theta = by[i] * unit_[i];
+    if (is_power() && i == first_of_law) by_theta *= c0;  // theta holds ln c0
+    if (i == first_of_law + 1 && fixed(0)) by_theta += c0 * std::log(v_unit_) * by[first_of_law];
+    *std::exchange(to, to + stride) = by_theta;
   }
-  for (std::size_t i = 0; i < asked_.size(); ++i)
-    if (fits(i)) put(by.scene[i] * scene_numbers[i].unit);
 }
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,
@@ -280,17 +269,15 @@ RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x
   const auto direct = [&q, x0, way = run.way, position = run.column == Quantity::x,
                        roll = std::move(roll)](double t) mutable {
     Roll::Point p = roll.at(t);
-    Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
+    const Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
     const std::size_t slope = roll.law().size();  // then wind and steepness; way^2 is 1
-    by_c[slope + 2] *= way;
-    for (std::size_t j = 0; j < slope; ++j) by_c[j] *= way;
+    Parameters::Numbers by{way * (position ? p.x_v0 : p.v_v0), position ? p.x_x0 : p.v_x0};
+    for (std::size_t j = 0; j < slope; ++j) by[q.first_of_law + j] = way * by_c[j];
+    by[q.first_of_scene] = by_c[slope];
+    by[q.first_of_scene + 1] = way * by_c[slope + 2];
+    by[q.first_of_scene + place_of_wind] = by_c[slope + 1];
     std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v)};
-    // Where speeds are fitted, x0 is no parameter.
-    q.chain(&values[0] + 1, 1, roll.law().c(0),
-            {by_c,
-             way * (position ? p.x_v0 : p.v_v0),
-             position ? p.x_x0 : p.v_x0,
-             {by_c[slope], by_c[slope + 2], by_c[slope + 1]}});
+    q.chain(&values[0] + 1, 1, roll.law().c(0), by);
     return values;
   };
   const auto written = [](auto at) {
@@ -318,11 +305,11 @@ RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   if (!is_roll())
     return [&q = parameters_, law, logarithm = run.logarithm](double v, double* slopes,
                                                               std::size_t stride) {
-      std::array<double, LawForm::most> by_c{};
-      const double D = law.at(v, by_c.data()).D;
+      Parameters::Numbers by{};
+      const double D = law.at(v, &by[q.first_of_law]).D;
       if (logarithm)
-        for (double& by : by_c) by /= D;
-      q.chain(slopes, stride, law.c(0), {by_c});
+        for (double& by_c : by) by_c /= D;
+      q.chain(slopes, stride, law.c(0), by);
       return logarithm ? std::log(D) : D;
     };
   return rolled_of[parameters_.columns() - 1](run, roll(theta, r), parameters_,

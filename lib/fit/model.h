@@ -37,15 +37,19 @@
 
 namespace rolling {
 
-/// For each run, theta holds v0 in units of v_ref and x0 in units of x_ref. The parameters shared
-/// by all runs follow: the coefficients of the law in units of its own, and the numbers of the
-/// scene, of which the wind is none under a law without the drag of the air. Of a v^b they are ln D
-/// at the unit of speed, in place of a, which is nearly collinear with b, and b. Parameters that
-/// are fixed have no element in theta. v0 is the speed along the direction of motion and is not
-/// negative.
+/// The numbers of a roll: v0 and x0, which each run has for itself, the coefficients of the law and
+/// the numbers of the scene, of which the wind is none under a law without the drag of the air.
+/// Those that are not fixed are the elements of theta, each in a unit that makes it of order one:
+/// for each run v0 and x0, then the shared ones. Of a v^b they are ln D at the unit of speed, in
+/// place of a, which is nearly collinear with b, and b. v0 is the speed along the direction of
+/// motion and is not negative.
 class Parameters {
  public:
-  static constexpr std::size_t most = LawForm::most + 2 + scene_numbers.size();  ///< v0, x0
+  static constexpr std::size_t first_of_law = 2;
+  static constexpr std::size_t first_of_scene = first_of_law + LawForm::most;
+  static constexpr std::size_t most = first_of_scene + scene_numbers.size();
+  /// v0, x0, the coefficients of the law and those of the scene, or derivatives by them.
+  using Numbers = std::array<double, most>;
 
   Parameters() = default;
   /// Of rolls under a v^b. `position`: the raw column is a position, so that each run has an x0.
@@ -56,66 +60,55 @@ class Parameters {
   Parameters with(const LawForm&, double D_unit, double v_unit) const;
   /// The same parameters with the exponent of a v^b fixed.
   Parameters with_exponent(double b) const;
-
-  double speed_unit() const { return v_unit_; }  ///< [m/s], see Law
-  const LawForm& form() const { return *form_; }
-  /// The value of coefficient j in SI units if it is fixed.
-  std::optional<double> fixed(std::size_t j) const { return fixed_[j]; }
-  /// The number of free coefficients of the law.
-  std::size_t coefficients() const;
-  /// Whether number i of the scene is a parameter.
-  bool fits(std::size_t i) const {
-    return asked_[i] && (scene_numbers[i].value != &Body::wind || form_->drag >= 0);
-  }
-  /// The number of those that are parameters.
-  std::size_t scene() const;
-  std::size_t shared() const { return coefficients() + scene(); }
-  std::size_t own() const { return !v0_ + free_x0(); }
-  std::size_t columns() const { return own() + shared(); }
-  std::size_t count() const { return runs_ * own() + shared(); }
-
-  Law law(const std::vector<double>& theta) const;
-  double v0(const std::vector<double>& theta, std::size_t run) const;
-  double x0(const std::vector<double>& theta, std::size_t run) const;
-  /// The given body with the numbers of the scene that are parameters.
-  Body body(const std::vector<double>& theta, Body given) const;
-  bool has_x0() const { return position_; }
   /// The same parameters of so many runs.
   Parameters of_runs(std::size_t n) const;
   /// The parameters of a single run in a scene that is fixed.
   Parameters of_one_run() const;
-  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
-  /// The theta of a v^b with these v0 and x0 (one for each run), and this scene.
-  std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
-                            const std::vector<double>& x0, double slope = 0,
-                            double steepness = 1) const;
-  /// The theta of the same roll as that of other parameters, in which others are fixed.
-  std::vector<double> theta_of(const Parameters&, const std::vector<double>& theta) const;
 
-  /// Partial derivatives of a number: by the coefficients of the law, by the v0 and x0 of its run,
-  /// and by the numbers of the scene.
-  struct Derivatives {
-    std::span<const double> by_c;
-    double v0 = 0, x0 = 0;
-    std::array<double, scene_numbers.size()> scene = {};
-  };
+  double speed_unit() const { return v_unit_; }  ///< [m/s], see Law
+  const LawForm& form() const { return *form_; }
+  /// The value of coefficient j in SI units if it is fixed.
+  std::optional<double> fixed(std::size_t j) const { return fixed_[first_of_law + j]; }
+  /// Whether number i of the scene is a parameter.
+  bool fits(std::size_t i) const { return !fixed_[first_of_scene + i]; }
+  /// The number of free coefficients of the law, and of the numbers of the scene that are free.
+  std::size_t coefficients() const { return free(first_of_law, first_of_scene); }
+  std::size_t scene() const { return free(first_of_scene, most); }
+  std::size_t shared() const { return free(first_of_law, most); }
+  std::size_t own() const { return free(0, first_of_law); }
+  std::size_t columns() const { return free(0, most); }
+  std::size_t count() const { return runs_ * own() + shared(); }
+  bool has_x0() const { return position_; }
+
+  Law law(const std::vector<double>& theta) const;
+  double v0(const std::vector<double>& theta, std::size_t run) const {
+    return numbers(theta, run)[0];
+  }
+  double x0(const std::vector<double>& theta, std::size_t run) const {
+    return numbers(theta, run)[1];
+  }
+  /// The given body with the numbers of the scene that are parameters.
+  Body body(const std::vector<double>& theta, Body given) const;
+  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
+  /// The theta of a v^b with these v0 and x0 (one for each run), and a road as steep as it is.
+  std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
+                            const std::vector<double>& x0, double slope = 0) const;
+
   /// Converts derivatives to the elements of theta, those of the run first and then the shared
   /// ones, and writes them `stride` apart. c0 is the first coefficient under theta.
-  void chain(double* to, std::size_t stride, double c0, const Derivatives& by) const noexcept;
+  void chain(double* to, std::size_t stride, double c0, const Numbers& by) const noexcept;
 
  private:
-  bool free_x0() const { return position_ && !x0_; }
   bool is_power() const { return form_ == &laws().front(); }
+  std::size_t free(std::size_t first, std::size_t end) const;
+  Numbers numbers(const std::vector<double>& theta, std::size_t run) const;
 
   const LawForm* form_ = &laws().front();
-  std::array<std::optional<double>, LawForm::most> fixed_ = {};  // of a v^b, in SI units
-  std::optional<double> v0_;
-  std::optional<double> x0_;
-  std::array<bool, scene_numbers.size()> asked_ = {};
+  std::array<std::optional<double>, most> fixed_ = {};  // coefficients of a v^b in SI units
+  Numbers unit_ = {};                                   // of the elements of theta
+  bool fit_wind_ = false;
   bool position_ = false;
   std::size_t runs_ = 0;
-  double v_ref_ = 1;
-  double x_ref_ = 1;
   double D_unit_ = 1;
   double v_unit_ = 1;
 };

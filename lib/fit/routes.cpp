@@ -73,16 +73,6 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
   return fit;
 }
 
-Fitted fit_of_law(const Fitted& power, const LawForm& law) {
-  Fitted found = fit_beside(power, law);
-  std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
-  if (found.parameters().scene() > 0) scene += ": add runs in the other direction, of negative v";
-  else scene = "";
-  if (!was_found(found))
-    fail<MotionError>("the rows do not determine D = {}{}", law.formula, scene);
-  return found;
-}
-
 namespace {
 
 /// Fits a v^b.
@@ -120,7 +110,14 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
   if (options.robust) fail("D = {} is fitted by squares only, not robustly", options.law->formula);
   if (options.a || options.b)
     fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
-  return fit_of_law(fit_power(route, runs, options), *options.law);
+  const Fitted power = fit_power(route, runs, options);
+  Fitted found = fit_beside(power, *options.law);
+  std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
+  scene += ": add runs in the other direction, of negative v";
+  if (!was_found(found))
+    fail<MotionError>("the rows do not determine D = {}{}", options.law->formula,
+                      found.parameters().scene() > 0 ? scene : "");
+  return found;
 }
 
 }  // namespace rolling

@@ -21,10 +21,6 @@ Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
 /// is infinite where none is found.
 Fitted fit_beside(const Fitted& power, const LawForm&);
 
-/// The fit of this law, which is another one, to the rows, with the weights, of a fit of a v^b.
-/// Throws Error if the rows do not determine it.
-Fitted fit_of_law(const Fitted& power, const LawForm&);
-
 /// The starting point for the fit of a roll.
 struct FirstGuess {
   Parameters parameters;  ///< with units v_ref and x_ref that suit the data
@@ -49,6 +45,11 @@ Fitted fit_rolls(Route, const std::vector<Run>&, std::vector<Rows>, std::vector<
 /// ignores what the cusps and the wall make.
 Minimum search(const Model&, const std::shared_ptr<const Noise>&,
                const std::vector<std::vector<double>>& starts, const FitOptions&);
+
+/// The smallest sum of squares with this exponent of a v^b held, from a theta in which it is free,
+/// and its place as such a theta; infinite where the search finds none.
+Minimum with_exponent_held(const Model&, const std::shared_ptr<const Noise>&,
+                           std::vector<double> theta, double b);
 
 /// The fit of these runs with the weights of this noise.
 Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,

@@ -71,16 +71,24 @@ Minimum minimise_along_wall(const Model& rolls, const std::shared_ptr<const Nois
   const Parameters& q = rolls.parameters();
   const bool before_wall = std::isfinite(best.rss) && q.law(best.theta).power()->b > 0;
   if (before_wall && !ends_at_an_edge(best)) return best;
-  const Parameters held = q.with_exponent(0);
-  Minimum at_wall{held.theta_of(q, best.theta)};
-  improve(at_wall, system_of(rolls.with(held), noise), at_wall.theta);
+  const Minimum at_wall = with_exponent_held(rolls, noise, best.theta, 0);
   if (!std::isfinite(at_wall.rss)) return minimise(system, start);
-  const std::vector<double> there = q.theta_of(held, at_wall.theta);
-  improve(best, system, there);
-  return best.rss < at_wall.rss ? best : evaluated(system, there);
+  improve(best, system, at_wall.theta);
+  return best.rss < at_wall.rss ? best : evaluated(system, at_wall.theta);
 }
 
 }  // namespace
+
+Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise>& noise,
+                           std::vector<double> theta, double b) {
+  const Parameters& q = rolls.parameters();
+  const auto exponent = static_cast<std::ptrdiff_t>(q.count() - q.scene() - 1);
+  theta.erase(theta.begin() + exponent);
+  Minimum found{theta};
+  improve(found, system_of(rolls.with(q.with_exponent(b)), noise), theta);
+  found.theta.insert(found.theta.begin() + exponent, b);
+  return found;
+}
 
 Minimum search(const Model& model, const std::shared_ptr<const Noise>& noise,
                const std::vector<std::vector<double>>& starts, const FitOptions& options) {

@@ -134,47 +134,6 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   return {c[0] >= least ? c[0] : least, fit_slope ? c[1] : 0};
 }
 
-/// Starting points for a grid of exponents: the shift at half of the highest speed is that of an
-/// even deceleration.
-class Starts {
- public:
-  Starts(const std::vector<Thinned>& thin, const FitOptions& options)
-      : options_(options), even_(even_roll(thin, options.fit_slope)),
-        middle_(thin.front().fastest() / 2) {
-    for (const auto& [run, most, turns, speeds] : thin) {
-      v0_.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
-      x0_.push_back(run.y[0] - run.way * v0_.back() * run.t[0]);
-    }
-  }
-  std::vector<double> exponents() const {
-    if (options_.b) return {*options_.b};
-    return {0.25, 0, 1, -0.5};
-  }
-  std::vector<double> theta(const Parameters& q, double b) const {
-    const double a = even_.D * std::pow(middle_, -b);
-    return q.theta({options_.a.value_or(a), b}, v0_, x0_, even_.slope);
-  }
-
- private:
-  const FitOptions& options_;
-  EvenRoll even_;
-  double middle_;  // half of the highest speed
-  std::vector<double> v0_;
-  std::vector<double> x0_;
-};
-
-/// The minimum with this exponent held, as a theta in which it is free. A body that turns on a
-/// slope would be held there by a law with b < 0, so that the sum of squares has a wall at b = 0. A
-/// search that comes to the wall before the other parameters are right does not leave it; with b
-/// held the other parameters come first.
-std::vector<double> with_b_held(const std::vector<ObservedRun>& runs, const Parameters& q,
-                                const Starts& starts, double b) {
-  const Parameters held = q.with_exponent(b);
-  Minimum best{starts.theta(held, b)};
-  improve(best, system_of(Model(runs, held)), best.theta);
-  return q.theta_of(held, best.theta);
-}
-
 /// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well.
 /// Throws Error, too, if the body of a run comes back on a level mat and the best roll is far from
 /// the readings; a few false echoes do not bring it so far.
@@ -304,16 +263,33 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   const double v = thin.front().fastest() / 2;
   const double time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
   const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
-  const Starts starts(thin, options);
-  const bool turns = std::ranges::any_of(thin, &Thinned::turns);
-  const System system = system_of(Model(thin_runs, q));
+  std::vector<double> v0;
+  std::vector<double> x0;
+  for (const auto& [run, most, turns, speeds] : thin) {
+    v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
+    x0.push_back(run.y[0] - run.way * v0.back() * run.t[0]);
+  }
+  // For a grid of exponents: the shift at half of the highest speed is that of an even
+  // deceleration.
+  const EvenRoll even = even_roll(thin, options.fit_slope);
+  std::vector<double> exponents{0.25, 0, 1, -0.5};
+  if (options.b) exponents = {*options.b};
   std::vector<std::vector<double>> all;
-  for (const double b : starts.exponents()) all.push_back(starts.theta(q, b));
+  for (const double b : exponents) {
+    const double a = options.a.value_or(even.D * std::pow(v, -b));
+    all.push_back(q.theta({a, b}, v0, x0, even.slope));
+  }
+  const Model model(std::move(thin_runs), q);
+  const System system = system_of(model);
   Minimum best{all[0]};
   for (const std::vector<double>& start : all) improve(best, system, start);
-  if (turns && !options.b)
-    for (const double b : starts.exponents()) {
-      all.push_back(with_b_held(thin_runs, q, starts, b));
+  // A body that turns on a slope would be held there by a law with b < 0, so that the sum of
+  // squares has a wall at b = 0. A search that comes to the wall before the other parameters are
+  // right does not leave it; with b held the other parameters come first.
+  if (std::ranges::any_of(thin, &Thinned::turns) && !options.b)
+    for (std::size_t k = 0; k < exponents.size(); ++k) {
+      all.push_back(
+          with_exponent_held(model, std::make_shared<const Noise>(), all[k], exponents[k]).theta);
       improve(best, system, all.back());
       Minimum at_wall = tried(system, all.back());
       if (at_wall.rss < best.rss) best = std::move(at_wall);

@@ -358,7 +358,7 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
             std::array<double, 6> single{position ? 0.3 + p.x : p.v}, slopes{};
             const auto& by_c = position ? p.x_c : p.v_c;
             q.chain(&single[1], 1, of(1),
-                    {by_c, position ? p.x_v0 : p.v_v0, 1, by_c[2]});  // speeds in units of 1 m/s
+                    {position ? p.x_v0 : p.v_v0, 1, by_c[0], by_c[1], 0, by_c[2]});
             const double value = dense(run.t[i], slopes.data(), 1);
             off[0] =
                 std::max({off[0], std::abs(value - single[0]), std::abs(column[i] - single[0])});
