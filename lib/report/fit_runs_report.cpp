@@ -91,8 +91,10 @@ class Remarks {
 
   void make() {
     geometry();
-    if (r_.agreement && !r_.agreement->agree())
-      object("", disagreement(*r_.agreement, fit_.runs) + ways_to_agree());
+    if (r_.agreement) {
+      const std::string found = disagreement(*r_.agreement, fit_.runs, tool_.checks);
+      if (!found.empty()) object("", found + ways_to_agree());
+    }
     if (noisy_) causes();
     const LawForm& law = r_.law.form();
     const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
@@ -294,17 +296,24 @@ class Remarks {
 
 }  // namespace
 
-std::string disagreement(const Agreement& found, const std::vector<Run>& runs) {
-  std::string line = fmt::format(
-      "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees of freedom, {}): run "
-      "{} {}",
-      found.ratio, found.dof, p_of(found.p), runs[found.run].name,
-      found.runs > 2 ? "stands out" : "is not like the other");
+std::string disagreement(const Agreement& found, const std::vector<Run>& runs, bool check) {
+  const bool agree = found.agree();
+  if (agree && !(check && found.p_of_run <= levels::run_off)) return {};
+  std::string line =
+      agree ? fmt::format("the runs agree as a whole, but one of {} is off ({})", found.runs,
+                          p_of(found.p_of_run))
+            : fmt::format(
+                  "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees "
+                  "of freedom, {})",
+                  found.ratio, found.dof, p_of(found.p));
+  line += fmt::format(": run {} {}", runs[found.run].name,
+                      found.runs > 2 ? "stands out" : "is not like the other");
   if (found.log_D.sigma > 0)
     line += fmt::format(", in D({:.2g} m/s) by {:+.3g} +- {:.1g} %", found.speed,
                         100 * std::expm1(found.log_D.value), 100 * found.log_D.sigma);
   if (found.b.sigma > 0)
     line += fmt::format(", in b by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
+  if (agree) return line;
   return line + "; the row is their mean, with their scatter in its uncertainties";
 }
 

@@ -162,7 +162,8 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   const auto common = take_common(rows);
   const JointLaw joint = joint_law(rows.laws, common);
   write_table(tool.out, line_of_fit("fits", {}, of_runs), {row_of(joint, rows.laws.size())});
-  if (!joint.agreement.agree()) tool.object("", disagreement(joint.agreement, rows.runs));
+  const std::string found = disagreement(joint.agreement, rows.runs, tool.checks);
+  if (!found.empty()) tool.object("", found);
 }
 
 }  // namespace rolling

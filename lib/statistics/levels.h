@@ -18,6 +18,8 @@ inline constexpr double few_reversals = 0.1;
 inline constexpr double uneven = 0.01;
 /// Runs of a joint fit disagree: 1 % (tests/unit/fit/errors_agreement_test.cpp).
 inline constexpr double runs_disagree = 0.01;
+/// Of runs that agree by that, one lies off, after Bonferroni's correction; in a check alone.
+inline constexpr double run_off = 0.01;
 /// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.
 inline constexpr double beginning = 0.001, beginning_white = 0.009;
 /// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.

@@ -11,7 +11,8 @@ namespace {
 
 /// Computes chi^2 of the distance from one run to the weighted mean of the others, and stores the
 /// run in the result if that is more than `most`.
-void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, double& most) {
+void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C,
+               std::size_t parameters, double& most) {
   const Pair d = one.law - others;
   C = C + one.covariance;
   const double distance = C.inverse().square(d);
@@ -23,6 +24,8 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C, d
   result.speed = std::exp(log_v);
   result.log_D = difference.log_D(log_v);
   result.b = difference.b();
+  const auto p = static_cast<double>(parameters);
+  result.p_of_run = gsl_cdf_fdist_Q(distance / p, p, one.freedom);
 }
 
 /// -2 ln of the ratio of likelihoods, of one common law to laws of the runs' own, where the noise
@@ -72,8 +75,9 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::
     const Symmetric weight = one.covariance.inverse();
     result.chi2 += weight.square(one.law - mean);
     const Symmetric rest = (all.weights - weight).inverse();
-    stand_out(result, one, rest * (all.sum - weight * one.law), rest, most);
+    stand_out(result, one, rest * (all.sum - weight * one.law), rest, parameters, most);
   }
+  result.p_of_run = std::min(1.0, result.p_of_run * static_cast<double>(laws.size()));
   result.dof = parameters * (laws.size() - 1) - taken;
   result.ratio = least_from(mean, laws, parameters);
   if (result.dof > 0) result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));

@@ -93,9 +93,13 @@ struct Agreement {
   double p = 1;          ///< the probability that noise alone makes `ratio` as large
   std::size_t runs = 0;  ///< the number of runs that determine a law
   std::size_t run = 0;   ///< the run that differs most from the others, from 0
-  double speed = 1;      ///< the speed at which D of that run is known best [m/s]
-  Estimate log_D = {};   ///< ln D of that run minus ln D of the others at that speed
-  Estimate b = {};       ///< the exponent of that run minus the exponent of the others
+  /// The probability that noise alone puts any of the runs so far from the others: that of one run,
+  /// by Fisher's F, times the number of runs (Bonferroni). One bad run among many is found by it; a
+  /// chi-square of all hides it.
+  double p_of_run = 1;
+  double speed = 1;     ///< the speed at which D of that run is known best [m/s]
+  Estimate log_D = {};  ///< ln D of that run minus ln D of the others at that speed
+  Estimate b = {};      ///< the exponent of that run minus the exponent of the others
 
   bool agree() const { return p > levels::runs_disagree; }
 };

@@ -8,6 +8,7 @@
 #include "unit/catch.h"
 #include "unit/normal.h"
 #include "unit/fit/rolls.h"
+#include "unit/many.h"
 
 using namespace rolling;
 using rolls::felt, rolls::roll, rolls::rubber;
@@ -93,6 +94,30 @@ TEST_CASE("joint law: p is that of chi2, for 760 rows too, and for rows of unequ
     CAPTURE(uneven);
     CHECK(alarms <= 3);  // more of 1 % by chance in 0.07 %
   }
+}
+
+// Five of its standard errors: the chi-square of 50 rows misses most of such rows. The squared
+// distance of the row is above 20.5, the limit by F, in 0.70: drawn by themselves, 200,000 normal
+// errors beside variances of 47 degrees of freedom.
+TEST_CASE("joint law: one row of 50 that is off is found, and of good rows 1 % are", "[fit]") {
+  Rows rows(11);
+  const unsigned sets = of_many(2000);
+  unsigned alarms = 0;
+  unsigned found = 0;
+  unsigned as_a_whole = 0;
+  for (unsigned set = 0; set < sets; ++set) {
+    std::vector<OwnLaw> laws = rows(50, 0, 47);
+    alarms += joint_law(laws, {}).agreement.p_of_run <= levels::run_off;
+    laws[30].law.a += 5 * laws[30].log_D(laws[30].best_log_v()).sigma;
+    const Agreement off = joint_law(laws, {}).agreement;
+    found += off.p_of_run <= levels::run_off && off.run == 30;
+    as_a_whole += !off.agree();
+  }
+  CAPTURE(alarms, found, as_a_whole);
+  CHECK(alarms <= at_most(sets, 0.01));
+  CHECK(alarms >= at_least(sets, 0.01));
+  CHECK(found >= at_least(sets, 0.7));
+  CHECK(as_a_whole <= at_most(sets, 0.5));
 }
 
 TEST_CASE("joint law: rows say what a joint fit of their runs says", "[fit]") {
