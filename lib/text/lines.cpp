@@ -58,10 +58,6 @@ std::string_view only_cell(std::string_view line) {
 
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
-bool begins_with_error_value(std::string_view line) {
-  return std::ranges::count(error_values, line.substr(0, line.find_first_of(filling))) > 0;
-}
-
 }  // namespace
 
 Lines::Lines(std::string name)
@@ -145,7 +141,8 @@ LineKind Lines::kind_of(std::string_view line) const {
   if (line[first] != '#' || is_field) return LineKind::row;
   line.remove_prefix(first);
   if (is_history(line)) return LineKind::history;
-  return begins_with_error_value(line) ? LineKind::row : LineKind::comment;
+  const std::string_view word = line.substr(0, line.find_first_of(filling));
+  return std::ranges::count(error_values, word) > 0 ? LineKind::row : LineKind::comment;
 }
 
 /// True for a row whose cells are all blank, in quotes perhaps.

@@ -57,8 +57,6 @@ class NeededColumns {
   /// there is one. Where no name is t, or v or x, the only column in a unit of it serves as it.
   /// Throws Error where there are several.
   std::optional<std::size_t> find(std::string_view name) const;
-  /// What each column of this run serves as: by --use, by its unit, else its own name.
-  const std::vector<std::string>& quantities() const { return quantities_; }
   /// The columns of this run with the names and units of the output: a column that serves as a
   /// quantity has its name and unit; another column of that name is renamed.
   const std::vector<Column>& in_output() const { return in_output_; }
@@ -92,7 +90,7 @@ class NeededColumns {
 
   // The run.
   std::vector<Column> as_read_, in_output_;
-  std::vector<std::string> quantities_;
+  std::vector<std::string> quantities_;  // by --use, by its unit, else the name of each column
   std::set<std::size_t> by_unit_;  // the columns that serve as a quantity for their unit alone
   bool named_ = false;
   SaidUnits said_;

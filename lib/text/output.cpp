@@ -96,7 +96,7 @@ void Output::flush() {
       const int reason = errno;
       whole_ = 0;
       drop_line();
-      fail<OutputError>("standard output: {}", std::strerror(reason));
+      fail<CompleteError>("standard output: {}", std::strerror(reason));
     }
     written_ = true;
     torn_ = left[static_cast<std::size_t>(count) - 1] != '\n';

@@ -14,11 +14,6 @@
 
 namespace rolling {
 
-/// Standard output cannot be written. The message then names no row.
-struct OutputError : CompleteError {
-  using CompleteError::CompleteError;
-};
-
 /// The header: `# t[s]<TAB>v[m/s]`.
 std::string names_line(const std::vector<Column>&);
 
@@ -68,7 +63,7 @@ class Output {
   void header(const std::string& line);
   /// Writes the line `## run NAME` that is among these, if one is.
   void run_among(const std::vector<std::string>& comments);
-  /// Writes the buffer. Throws OutputError if the system reports an error.
+  /// Writes the buffer. Throws CompleteError if the system reports an error.
   void flush();
   /// Removes the current line and writes this one as the last of the output, if there has been any
   /// output and the system accepts it. Never throws.

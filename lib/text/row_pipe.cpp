@@ -9,20 +9,7 @@
 namespace rolling {
 
 RowPipe::RowPipe(Reader& in, Output& out, std::string history)
-    : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history)),
-      enough_(rows_at_once()) {}
-
-RowPipe::~RowPipe() {
-  try {
-    if (!writing_) write_rows();
-  } catch (...) {  // the error that ended the work is reported, not this one
-  }
-}
-
-void RowPipe::append(Column column) {
-  appended_.push_back(std::move(column));
-  enough_ = rows_at_once() * appended_.size();
-}
+    : in_(in), out_(out), history_(history.empty() ? "" : "## " + std::move(history)) {}
 
 /// The columns of the present run in the output.
 std::vector<Column> RowPipe::columns() const {
@@ -137,23 +124,21 @@ void RowPipe::write_comments() {
 }
 
 /// Writes a row with its numbers, which are finite, at this place of its text.
-inline void RowPipe::write_row(std::string_view text, std::size_t place,
-                               std::span<const double> numbers) {
+inline void RowPipe::write_row(std::string_view text, std::size_t place) {
   out_.text(text.substr(0, place));
-  for (const double number : numbers) {
+  for (const double number : numbers_) {
     if (!appended_.empty()) out_.text('\t');
     out_.number(number);
   }
   if (place < text.size()) out_.text(text.substr(place));
   out_.end_line();
+  numbers_.clear();
 }
 
 /// Writes all lines before the first row that lacks a number. The comments of a run without rows,
 /// but for its history, are written with the head of the next run.
 void RowPipe::write_rows() {
-  writing_ = true;
   const std::size_t each = std::max<std::size_t>(appended_.size(), 1);
-  std::span<const double> numbers(numbers_);
   for (; !lines_.empty(); lines_.pop_front()) {
     const Line& line = lines_.front();
     const std::string_view text(texts_.data() + front_, line.size);
@@ -167,23 +152,20 @@ void RowPipe::write_rows() {
       dropped_.pop();
       ++done_;
     } else {
-      if (numbers.size() < each) break;
+      if (numbers_.size() < each) break;
       begin_part();
       write_head();
-      write_row(text, line.place, numbers.first(each));
-      numbers = numbers.subspan(each);
+      write_row(text, line.place);
       any_row_ = true;
       ++done_;
     }
     front_ += line.size;
   }
-  numbers_.erase(numbers_.begin(), numbers_.end() - static_cast<std::ptrdiff_t>(numbers.size()));
   if (2 * front_ >= texts_.size()) {  // amortised, each line is moved at most once
     const std::size_t left = texts_.size() - front_;
     std::copy_n(texts_.data() + std::exchange(front_, 0), left, texts_.data());
     texts_.resize(left);
   }
-  writing_ = false;
 }
 
 }  // namespace rolling

@@ -3,9 +3,6 @@
 // column. A row is kept as text until its numbers have been computed, which may be later (a
 // window that looks ahead). Every byte that is not computed is written as it was read. Each run is
 // written with its own head: its name, comments and history, the line of this tool, the names.
-//
-// Complete rows are formatted 32 at a time: the conversions of several numbers overlap in the
-// processor, which those of the digits of one number cannot.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +30,6 @@ class RowPipe {
   /// `history` is the `##` line, without the marks, that says what this tool does; empty if it
   /// changes no number.
   RowPipe(Reader& in, Output& out, std::string history);
-  /// If an Error ends the work early, writes the rows that are complete.
-  ~RowPipe();
   RowPipe(const RowPipe&) = delete;
   RowPipe& operator=(const RowPipe&) = delete;
   /// Another line than that of the runs before. For the present run before the first of its
@@ -47,7 +42,7 @@ class RowPipe {
   void replace(std::size_t slot) { replaced_ = slot; }
   /// The numbers form a new last column. With several new columns each row needs one number for
   /// each, in their order. An existing column of that name is renamed `name_in`.
-  void append(Column);
+  void append(Column column) { appended_.push_back(std::move(column)); }
 
   /// Goes to the next run or row, as Reader does. The row waits for its numbers.
   bool next_run();
@@ -65,7 +60,7 @@ class RowPipe {
   void put(double value) {
     require_finite(value);
     numbers_.push_back(value);
-    if (numbers_.size() >= enough_) write_rows();
+    if (numbers_.size() >= appended_.size()) write_rows();
   }
   void put(std::span<const double> values) {
     for (const double value : values) put(value);
@@ -91,7 +86,6 @@ class RowPipe {
 
   bool next_row();
   void join_rows();
-  std::size_t rows_at_once() const { return out_.unbuffered ? 1 : 32; }
   std::vector<Column> columns() const;
   void hold(std::string_view text, Kind);
   void take_comments(const std::vector<std::string>&);
@@ -99,7 +93,7 @@ class RowPipe {
   void begin_part();
   void write_head();
   void write_comments();
-  void write_row(std::string_view text, std::size_t place, std::span<const double> numbers);
+  void write_row(std::string_view text, std::size_t place);
 
   Reader& in_;
   Output& out_;
@@ -112,8 +106,7 @@ class RowPipe {
   std::size_t front_ = 0;                     // where the text of the first begins
   std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
   std::queue<std::pair<std::size_t, std::string>> splits_;  // rows that begin a run, its name
-  std::vector<double> numbers_;                             // of these rows, in order
-  std::size_t enough_;  // put() writes rows at this count of numbers
+  std::vector<double> numbers_;                             // of the first of these rows
   // Counts of the rows of all runs: read; read before this run; written or left out.
   std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
   // The head of a run none of whose rows has been written.
@@ -125,7 +118,6 @@ class RowPipe {
   bool ahead_ = false;  // the row behind the joined ones has been read
   bool any_row_ = false;
   std::function<std::string()> why_none_;
-  bool writing_ = false;  // write_rows() is at work; stays true if it has failed
 };
 
 }  // namespace rolling
