@@ -63,6 +63,53 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
   return best;
 }
 
+/// The variance of white noise in a column at these times, by the differences of orders 3 to 6: a
+/// difference of order k makes it (2k choose k) times as large, and leaves the less of a smooth
+/// motion the higher k is. 0 where the times are not even or too few.
+double variance_of_noise(const std::vector<double>& t, std::vector<double> column) {
+  double least = INFINITY;
+  for (std::size_t i = 2; i < t.size(); ++i)
+    if (std::abs(t[i] - 2 * t[i - 1] + t[i - 2]) > 1e-3 * (t[i] - t[i - 1])) return 0;
+  double grown = 1;
+  for (std::size_t k = 1; k <= 6 && column.size() > 12; ++k) {
+    for (std::size_t i = 0; i + 1 < column.size(); ++i) column[i] = column[i + 1] - column[i];
+    column.pop_back();
+    grown *= 2 * (2 * static_cast<double>(k) - 1) / static_cast<double>(k);
+    if (k >= 3)
+      least = std::min(least, dot(column, column) / (grown * static_cast<double>(column.size())));
+  }
+  return least < INFINITY ? least : 0;
+}
+
+/// The expected bias of the coefficients where the speeds have noise of their own, as those of an
+/// encoder beside the accelerations of another sensor: least squares takes them as exact, and a
+/// noisy abscissa makes a slope too small (Fuller 1987, Measurement Error Models, section 1.1). To
+/// the second order in the noise u of v the bias of theta is (J^T J)^-1 sum E[J(v + u) (D(v) -
+/// D(v + u))]; the expectation is that of two values of u.
+std::vector<double> bias_by_speeds(const Fitted& fit, const std::vector<double>& variances) {
+  const std::vector<double>& theta = fit.minimum.theta;
+  std::vector<double> sum(theta.size());
+  for (std::size_t r = 0; r < variances.size(); ++r) {
+    const RawModel D = fit.model.raw(theta, r);
+    std::vector<double> slopes(theta.size());
+    for (const double v : fit.model.runs()[r].t) {
+      const double u = std::min(std::sqrt(variances[r]), v / 2);
+      for (const double seen : {v - u, v + u}) {
+        const double off = D(v, slopes.data(), 1) - D(seen, slopes.data(), 1);
+        for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += slopes[j] * off / 2;
+      }
+    }
+  }
+  fit.minimum.R.solve_transposed(0, sum);
+  std::vector<double> bias;
+  for (const FittedNumber& number : fit.coefficients) {
+    std::vector<double> gradient = number.gradient;
+    fit.minimum.R.solve_transposed(0, gradient);
+    bias.push_back(dot(gradient, sum));
+  }
+  return bias;
+}
+
 }  // namespace
 
 Rows shift_rows(const Run& run, const FitOptions& options, bool logarithms, double stop) {
@@ -123,8 +170,15 @@ Fitted fit_shift(const std::vector<Run>& all, const FitOptions& options) {
   std::vector<ObservedRun> runs = observed_shifts(all, rows, options, false);
   const Parameters q = parameters_of_shifts(runs, options);
   const PowerLaw start = power_start(runs, q.speed_unit(), options);
-  return fit_from({q, {q.theta(start, {}, {})}}, std::move(runs), std::make_shared<const Noise>(),
-                  options);
+  Fitted fit = fit_from({q, {q.theta(start, {}, {})}}, std::move(runs),
+                        std::make_shared<const Noise>(), options);
+  std::vector<double> variances;
+  for (const Run& run : all)
+    if (!shift_rows(run, options, false).empty())
+      variances.push_back(run.t.empty() ? 0 : variance_of_noise(run.t, run.v));
+  if (std::ranges::any_of(variances, [](double variance) { return variance > 0; }))
+    fit.bias = bias_by_speeds(fit, variances);
+  return fit;
 }
 
 namespace {
