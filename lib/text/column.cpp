@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "text/delimiters.h"
+#include "text/dialect.h"
 #include "text/number.h"
 
 namespace rolling {

@@ -2,10 +2,8 @@
 #include "text/dialect.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/error.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -45,30 +43,72 @@ bool may_be_thousands(std::string_view field, char mark) {
 
 /// The characters of plain text: no separator, no quote, and none that only numbers with a decimal
 /// comma or U+2212 have.
-constexpr auto plain = [] {
-  std::array<bool, 256> is{};
-  for (std::size_t c = '-'; c <= 'z'; ++c) is[c] = !is_separator(static_cast<char>(c));
-  return is;
-}();
-
-/// The first character that is not plain.
-const char* skip_plain(const char* at, const char* end) {
-  while (at != end && plain[static_cast<unsigned char>(*at)]) ++at;
-  return at;
-}
+constexpr bool is_plain_text(char c) { return c >= '-' && c <= 'z' && c != ';'; }
 
 const char* skip_blanks(const char* at, const char* end) {
-  while (at != end && is_blank(*at)) ++at;
-  return at;
+  return std::find_if_not(at, end, is_blank);
 }
 
 /// Reads the number of the field if it is wanted, else skips plain text; returns the end of either.
 /// Reading a number finds its end, and so the end of its field: the line is passed over only once.
 const char* read_plain(const char* at, const char* end, Field& field) {
-  return field.wanted ? read_number(at, end, field.number) : skip_plain(at, end);
+  return field.wanted ? read_number(at, end, field.number)
+                      : std::find_if_not(at, end, is_plain_text);
 }
 
 }  // namespace
+
+const char* closing_quote(const char* at, const char* end) {
+  for (;; at += 2) {
+    at = std::find(at, end, quote);
+    if (at == end || at + 1 == end || at[1] != quote) return at;
+  }
+}
+
+std::optional<std::string> take_quoted(std::string_view& line, char separator) {
+  if (!line.starts_with(quote)) return {};
+  const char *const first = line.data() + 1, *const end = line.data() + line.size(),
+                    *const close = closing_quote(first, end);
+  if (close == end) return {};
+  std::string_view behind(close + 1, end);
+  while (separator && !behind.empty() && behind.front() != separator && is_blank(behind.front()))
+    behind.remove_prefix(1);
+  if (!behind.empty() && (separator ? behind.front() != separator : !is_blank(behind.front())))
+    return {};
+  line = behind;
+  return replace_all(trim({first, close}), {{"\"\"", "\""}});
+}
+
+Unquoted outside_quotes(std::string_view text, std::string_view between, bool within) {
+  Unquoted outside;
+  const char *at = text.data(), *const end = at + text.size();
+  for (bool begins = true; within || at != end; ++at) {
+    if (within || (begins && *at == quote)) {
+      at = closing_quote(within ? at : at + 1, end);
+      if (at == end) return {outside.text, true};
+      begins = within = false;
+    } else {
+      outside.text += *at;
+      begins = between.find(*at) != std::string_view::npos || (begins && is_blank(*at));
+    }
+  }
+  return outside;
+}
+
+bool needs_quotes(std::string_view field) {
+  return field.starts_with('#') ||
+         std::ranges::any_of(field, [](char c) { return c == quote || c == '\t' || c == '\n'; });
+}
+
+void append_field(Bytes& line, std::string_view field) {
+  if (!needs_quotes(field)) return line.append(field);
+  line.push_back(quote);
+  for (const char c : field) {
+    if (c == quote) line.push_back(quote);
+    line.push_back(c);
+  }
+  line.push_back(quote);
+}
 
 bool Dialect::choose(std::string_view line, bool tabs) {
   const std::string outside = outside_quotes(line, separators).text;
@@ -107,13 +147,10 @@ void Dialect::want(std::size_t field) {
 std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
   made_.clear();
-  if (made_.capacity() < 2 * line.size())
-    made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
+  made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
   as_it_stands_ = separator_ == '\t';
-  may_need_quotes_ = false;
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
-    may_need_quotes_ = line.find(quote) != npos || line.find('#') != npos;
     split_blanks(at, end);
     return {fields_.data(), count_};
   }
@@ -148,7 +185,6 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
   const bool blanks = separator_ == '\0';
   const char separator = blanks ? ' ' : separator_;
   as_it_stands_ = separator == '\t';
-  may_need_quotes_ = false;
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field) {
     if (blanks) at = skip_blanks(at, end);
     const char* first = at;
@@ -199,10 +235,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = trim({first, at});
     as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
-  if (needs_quotes(field.text)) {
-    may_need_quotes_ = true;
-    as_it_stands_ = false;
-  }
+  as_it_stands_ &= !needs_quotes(field.text);
   if (allows_foreign() && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;

@@ -1,14 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Splits the lines of a file into fields.
+// The separators of fields, quoted fields, and the fields of a line.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "text/number.h"
+
 namespace rolling {
+
+/// What stands around cells where they are blank: the separators and the blank. It is an array,
+/// since two uses of a literal may be two objects, and a search goes from the begin of one to its
+/// end.
+inline constexpr char filling_characters[] = "\t;, ";
+inline constexpr std::string_view filling = filling_characters;
+/// The separators of delimited files. A line is searched for them in this order.
+inline constexpr std::string_view separators = filling.substr(0, 3);
+constexpr bool is_separator(char c) { return separators.find(c) != std::string_view::npos; }
+
+inline constexpr char quote = '"';
+
+/// Finds the quote that closes a field; `at` is behind the opening quote. Returns `end` if there is
+/// none. Two quotes in a row stand for one quote inside the field.
+const char* closing_quote(const char* at, const char* end);
+
+/// Takes a quoted field from the beginning of `line`, and the blanks behind it; with `separator` 0
+/// a blank ends it. Returns its text without blanks around it, with one quote for two; nothing if
+/// there is none, if no quote closes it, or if other text stands behind that quote.
+std::optional<std::string> take_quoted(std::string_view& line, char separator);
+
+/// The part of a text that is outside quoted fields.
+struct Unquoted {
+  std::string text;
+  bool ends_within = false;  ///< a quoted field is still open at the end
+};
+/// A quote opens a quoted field only where a field begins: at the beginning of `text`, which may be
+/// within such a field already, and behind one of these separators.
+Unquoted outside_quotes(std::string_view text, std::string_view separators, bool within = false);
+
+/// True for a field that must be quoted in a tab-separated line: it contains a tab, a line end or a
+/// quote, or begins with #.
+bool needs_quotes(std::string_view field);
+
+/// Appends a field to a tab-separated line, in quotes if it needs them.
+void append_field(Bytes& line, std::string_view field);
 
 /// A field without its quotes and the blanks around it.
 struct Field {
@@ -47,8 +86,6 @@ class Dialect {
 
   /// The last line can be written out unchanged: it is its fields with tabs between them.
   bool as_it_stands() const { return as_it_stands_; }
-  /// A field of the last line may need quotes in the output.
-  bool may_need_quotes() const { return may_need_quotes_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
@@ -77,7 +114,7 @@ class Dialect {
   bool asks_ = true;               // a point may separate thousands, if a comma may be decimal
   bool passed_thousands_ = false;  // a number has passed whose mark may separate thousands
   std::vector<Seen> seen_;         // by field
-  bool as_it_stands_ = false, may_need_quotes_ = false;
+  bool as_it_stands_ = false;
   std::vector<Field> fields_;  // as many as the longest line had
   std::size_t count_ = 0;      // fields of this line
   // The texts of fields that were rewritten. Fields point into it, so it may not be reallocated.

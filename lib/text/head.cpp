@@ -9,7 +9,6 @@
 
 #include "base/enumeration.h"
 #include "base/error.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {

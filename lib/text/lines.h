@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "text/delimiters.h"
+#include "text/dialect.h"
 #include "text/number.h"
 
 namespace rolling {

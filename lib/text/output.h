@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "text/column.h"
-#include "text/delimiters.h"
+#include "text/dialect.h"
 #include "text/number.h"
 
 namespace rolling {

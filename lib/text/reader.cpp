@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/enumeration.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {

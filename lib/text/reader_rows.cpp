@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/enumeration.h"
-#include "text/delimiters.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -213,8 +212,7 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
     const auto slot =
         static_cast<std::size_t>(std::ranges::find_if(needed, is_it) - needed.begin());
     if (slot < needed.size() && !std::isnan(values_[slot])) append_number(to, values_[slot]);
-    else if (dialect_.may_need_quotes()) append_field(to, fields_[i].text);
-    else to.append(fields_[i].text);
+    else append_field(to, fields_[i].text);
   }
   return std::min(place, to.size() - begin);
 }

@@ -22,6 +22,17 @@ std::string chosen(std::string_view line) {
   return (number ? "" : "no number: ") + fields(dialect, line);
 }
 
+std::string outside(std::string_view text, std::string_view between = separators) {
+  const Unquoted unquoted = outside_quotes(text, between);
+  return unquoted.text + (unquoted.ends_within ? "..." : "");
+}
+
+std::string appended(std::string_view field) {
+  Bytes line;
+  append_field(line, field);
+  return {line.data(), line.size()};
+}
+
 }  // namespace
 
 TEST_CASE("dialect: the form is the first of tab ; , outside quotes, else blanks", "[text]") {
@@ -263,4 +274,27 @@ TEST_CASE("dialect: a line of numbers with decimal commas is split before its en
   CHECK_FALSE(dialect.as_it_stands());
   for (const char* odd : {"1.5;2;x\n", "1,5;2,5;x,y\n", "1,2,5;2;x\n", "1,5;2;x"})
     CHECK(plain_fields(dialect, odd, 0) == "?");
+}
+
+TEST_CASE("dialect: what stands outside quotes", "[text]") {
+  CHECK(outside("a,\"b,c\",d") == "a,,d");
+  CHECK(outside("\"a\"\"b\";c") == ";c");
+  CHECK(outside("5\" wheel,c\"d") == "5\" wheel,c\"d");  // a quote that begins no field
+  CHECK(outside("a, \"b\tc\"") == "a, ");
+  CHECK(outside("a,\"b") == "a,...");
+  CHECK(outside("a,\"b", "\t") == "a,\"b");
+  CHECK(outside("a\t\"b", "\t") == "a\t...");
+}
+
+TEST_CASE("dialect: a field is quoted where it cannot stand bare", "[text]") {
+  for (const char* bare : {"", "a", "a b", "a,b;c", "1#2"}) CHECK(appended(bare) == bare);
+  CHECK(appended("a\tb") == "\"a\tb\"");
+  CHECK(appended("a\nb") == "\"a\nb\"");
+  CHECK(appended("#1") == "\"#1\"");
+  CHECK(appended("5\"") == "\"5\"\"\"");
+}
+
+TEST_CASE("dialect: separators, two uses of them are one object, so that a search ends", "[text]") {
+  CHECK(separators.data() == filling.data());
+  CHECK(std::ranges::find(separators, 'x') == separators.end());
 }
