@@ -22,21 +22,17 @@ namespace rolling {
 namespace {
 
 /// The readings of one run that are off. If none is, the distance is that of the furthest one.
-struct OffOfRun {
-  std::size_t count = 0;
-  std::size_t furthest = 0;  ///< the index of the reading that is furthest off
-  double distance = 0;       ///< of that reading, in standard deviations
-};
-
 /// `left` is 1 - leverage. A least-squares fit without reading i has a sum of squares that is
 /// smaller by e^2/left; that is the square of the distance of the reading from the fit, too. A
 /// robust fit is already the fit of the other readings: without reading i its sum of squares is
 /// smaller by e^2, and the variance of its prediction for the reading is that of the noise divided
 /// by `left`.
-OffOfRun off_of_run(std::span<const double> e, std::span<const double> left, double freedom,
-                    bool robust) {
-  OffOfRun found;
+OffReadings off_of_run(const Fitted& fit, std::size_t r, std::span<const double> e,
+                       std::span<const double> left, bool robust) {
+  const ObservedRun& run = fit.model.runs()[r];
+  OffReadings found{r, 0, 0, 0};
   const std::size_t n = e.size();
+  double freedom = static_cast<double>(n) - static_cast<double>(fit.parameters().columns());
   const std::size_t most = std::min<std::size_t>(n / 10 + 1, 100);
   const std::size_t runs[] = {n};
   std::vector<std::size_t> order(n);
@@ -62,7 +58,8 @@ OffOfRun off_of_run(std::span<const double> e, std::span<const double> left, dou
     if (size < levels::off || lagged(others, runs, 1) > 0.5 * dot(others, others) ||
         static_cast<double>(n) * gsl_cdf_tdist_Q(size, freedom) > levels::off_chance / 2)
       continue;
-    found = {out, order[0], std::sqrt(first / squares * freedom)};
+    const double furthest = std::sqrt(first / squares * freedom);
+    found = {r, out, run.origin + run.t[order[0]], furthest};
   }
   return found;
 }
@@ -85,12 +82,8 @@ OffReadings around(const Fitted& fit, bool robust) {
   const auto e_of = by_run(e, sizes);
   const auto left_of = by_run(std::as_const(left), sizes);
   for (std::size_t r = 0; r < sizes.size(); ++r) {
-    const double freedom =
-        static_cast<double>(sizes[r]) - static_cast<double>(fit.parameters().columns());
-    const OffOfRun off = off_of_run(e_of[r], left_of[r], freedom, robust);
-    if (rank(off) <= rank(found)) continue;
-    const ObservedRun& run = fit.model.runs()[r];
-    found = {r, off.count, run.origin + run.t[off.furthest], off.distance};
+    const OffReadings off = off_of_run(fit, r, e_of[r], left_of[r], robust);
+    if (rank(off) > rank(found)) found = off;
   }
   return found;
 }

@@ -17,14 +17,6 @@ namespace rolling {
 
 namespace {
 
-/// sqrt(RSS / (n - p)); NaN where no degree of freedom is left for the noise.
-double rms_of(const Fitted& found) {
-  const std::size_t n = found.minimum.f.size();
-  const std::size_t p = found.minimum.theta.size();
-  if (found.degrees_left() == 0) return NAN;
-  return std::sqrt(sum_of_squares(found) / static_cast<double>(n - p));
-}
-
 /// The result, with standard errors that combine the contributions.
 FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
                     std::vector<ErrorShare> shares) {
@@ -184,7 +176,8 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
-  const double rms = rms_of(found);
+  const auto freedom = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
+  const double rms = found.degrees_left() == 0 ? NAN : std::sqrt(sum_of_squares(found) / freedom);
   require_roll(found);
   FitResult of_noise = result_of(found, rms, noise, shares);
   std::vector<Interval>& not_visited = of_noise.not_visited;

@@ -131,11 +131,19 @@ Body Parameters::body(const std::vector<double>& theta, Body given) const {
   return given;
 }
 
+std::vector<double> Parameters::theta_of_runs(const std::vector<double>& theta,
+                                              const std::vector<std::size_t>& runs) const {
+  const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::vector<double> few;
+  for (const std::size_t run : runs) few.insert(few.end(), at(run * own()), at((run + 1) * own()));
+  few.insert(few.end(), at(runs_ * own()), theta.end());
+  return few;
+}
+
 std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
                                              std::size_t run) const {
-  const auto at = [&](std::size_t i) { return theta.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::vector<double> one(at(run * own()), at((run + 1) * own()));
-  one.insert(one.end(), at(runs_ * own()), at(count() - scene()));
+  std::vector<double> one = theta_of_runs(theta, {run});
+  one.resize(one.size() - scene());
   return one;
 }
 
@@ -260,30 +268,30 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
 
 namespace {
 
-/// The raw column of a roll with so many derivatives, as a Chebyshev series where the times are
-/// dense.
-template <std::size_t columns>
-RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x0) {
+/// The raw column of a roll, as a Chebyshev series where the times are dense.
+RawModel rolled(const ObservedRun& run, Roll roll, double x0) {
+  using Q = Parameters;
   const double last = run.t.back();
   const std::array corners{roll.stop_until(last), roll.radius_time(last)};
-  const auto direct = [&q, x0, way = run.way, position = run.column == Quantity::x,
+  const auto direct = [x0, way = run.way, position = run.column == Quantity::x,
                        roll = std::move(roll)](double t) mutable {
-    Roll::Point p = roll.at(t);
+    const Roll::Point p = roll.at(t);
     const Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
     const std::size_t slope = roll.law().size();  // then wind and steepness; way^2 is 1
-    Parameters::Numbers by{way * (position ? p.x_v0 : p.v_v0), position ? p.x_x0 : p.v_x0};
-    for (std::size_t j = 0; j < slope; ++j) by[q.first_of_law + j] = way * by_c[j];
-    by[q.first_of_scene] = by_c[slope];
-    by[q.first_of_scene + 1] = way * by_c[slope + 2];
-    by[q.first_of_scene + place_of_wind] = by_c[slope + 1];
-    std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v)};
-    q.chain(&values[0] + 1, 1, roll.law().c(0), by);
+    std::array<double, 1 + Q::most> values{x0 + way * (position ? p.x : p.v),
+                                           way * (position ? p.x_v0 : p.v_v0),
+                                           position ? p.x_x0 : p.v_x0};
+    double* const by = &values[1];
+    for (std::size_t j = 0; j < slope; ++j) by[Q::first_of_law + j] = way * by_c[j];
+    by[Q::first_of_scene] = by_c[slope];
+    by[Q::first_of_scene + 1] = way * by_c[slope + 2];
+    by[Q::first_of_scene + place_of_wind] = by_c[slope + 1];
     return values;
   };
   const auto written = [](auto at) {
-    return [at = std::move(at)](double t, double* slopes, std::size_t stride) mutable {
+    return [at = std::move(at)](double t, Q::Numbers& by) mutable {
       const auto values = at(t);
-      for (std::size_t j = 0; j < columns; ++j) slopes[j * stride] = values[1 + j];
+      std::copy(values.begin() + 1, values.end(), by.begin());
       return values[0];
     };
   };
@@ -291,37 +299,26 @@ RawModel rolled(const ObservedRun& run, Roll roll, const Parameters& q, double x
   return written(ChebyshevPanels(run.t, corners, direct));
 }
 
-/// `rolled` of 1, 2, 3, ... columns.
-constexpr auto rolled_of = []<std::size_t... n>(std::index_sequence<n...>) {
-  return std::array{&rolled<n + 1>...};
-}
-(std::make_index_sequence<Parameters::most>());
-
 }  // namespace
 
 RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
-  const Law law = parameters_.law(theta);
-  if (!is_roll())
-    return [&q = parameters_, law, logarithm = run.logarithm](double v, double* slopes,
-                                                              std::size_t stride) {
-      Parameters::Numbers by{};
-      const double D = law.at(v, &by[q.first_of_law]).D;
-      if (logarithm)
-        for (double& by_c : by) by_c /= D;
-      q.chain(slopes, stride, law.c(0), by);
-      return logarithm ? std::log(D) : D;
-    };
-  return rolled_of[parameters_.columns() - 1](run, roll(theta, r), parameters_,
-                                              parameters_.x0(theta, r));
+  if (is_roll()) return rolled(run, roll(theta, r), parameters_.x0(theta, r));
+  return
+      [law = parameters_.law(theta), logarithm = run.logarithm](double v, Parameters::Numbers& by) {
+    double* const by_c = &by[Parameters::first_of_law];
+    const double D = law.at(v, by_c).D;
+    for (std::size_t j = 0; j < law.size() && logarithm; ++j) by_c[j] /= D;
+    return logarithm ? std::log(D) : D;
+      };
 }
 
 std::vector<double> Model::raw_column(const std::vector<double>& theta, std::size_t r) const {
   const RawModel at = raw(theta, r);
   std::vector<double> column;
-  std::vector<double> slopes(parameters_.columns());
+  Parameters::Numbers unused{};
   column.reserve(runs()[r].t.size());
-  for (double t : runs()[r].t) column.push_back(at(t, slopes.data(), 1));
+  for (double t : runs()[r].t) column.push_back(at(t, unused));
   return column;
 }
 
@@ -336,13 +333,18 @@ System system_of(Model model, std::shared_ptr<const Noise> noise) {
   return {model.rows(), q.own(), q.shared(),
           [model, noise, columns = q.columns()](const std::vector<double>& theta,
                                                 const TakeRows& take) {
+    const double c0 = model.parameters().law(theta).c(0);
+    Parameters::Numbers by{};
     for (std::size_t r = 0; r < model.runs().size(); ++r) {
       const ObservedRun& run = model.runs()[r];
       const RawModel raw = model.raw(theta, r);
       const std::size_t n = run.t.size();
       const std::size_t rows = run.y.size();
       std::vector<double> all(n * (1 + columns));  // the residuals, then the columns of J
-      for (std::size_t i = 0; i < n; ++i) all[i] = raw(run.t[i], &all[n + i], n);
+      for (std::size_t i = 0; i < n; ++i) {
+        all[i] = raw(run.t[i], by);
+        model.parameters().chain(&all[n + i], n, c0, by);
+      }
       if (run.H) all = run.H->times(all);
       for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
       if (noise->known()) noise->whitener(r).apply(all);

@@ -89,6 +89,9 @@ class Parameters {
   }
   /// The given body with the numbers of the scene that are parameters.
   Body body(const std::vector<double>& theta, Body given) const;
+  /// The theta of these runs alone, and that of one run in a scene that is fixed.
+  std::vector<double> theta_of_runs(const std::vector<double>& theta,
+                                    const std::vector<std::size_t>& runs) const;
   std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
   /// The theta of a v^b with these v0 and x0 (one for each run), and a road as steep as it is.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
@@ -161,9 +164,8 @@ std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNois
 std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
 
 /// The model of the raw column of one run: returns the value at time t from the origin (of shifts,
-/// at this speed), and writes the derivatives with respect to the parameters of the run, then the
-/// shared ones, to `slopes`, `stride` apart.
-using RawModel = std::function<double(double t, double* slopes, std::size_t stride)>;
+/// at this speed), and writes its derivatives, those that it has.
+using RawModel = std::function<double(double t, Parameters::Numbers& by)>;
 
 /// All runs under one law. Copies share the runs.
 class Model {
@@ -185,7 +187,7 @@ class Model {
   const Parameters& parameters() const { return parameters_; }
   bool is_roll() const { return runs().front().column != Quantity::D; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
-  /// Refers to this object.
+  /// Refers to the runs.
   RawModel raw(const std::vector<double>& theta, std::size_t run) const;
   /// The raw column of a run without derivatives: x or v at its times.
   std::vector<double> raw_column(const std::vector<double>& theta, std::size_t run) const;

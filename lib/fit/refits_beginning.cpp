@@ -13,7 +13,7 @@
 #include "fit/fitted.h"
 #include "statistics/levels.h"
 #include "fit/routes.h"
-#include "least_squares/triangles.h"
+#include "least_squares/minimise.h"
 #include "statistics/residuals.h"
 
 namespace rolling {
@@ -35,35 +35,28 @@ struct BeginningSearch {
   /// `fit` is that of this run by itself, taken as linear around its minimum.
   void add(const Fitted& fit, std::size_t run) {
     const auto& t = fit.model.runs().front().t;
-    const System system = fit.system();
-    system.evaluate(fit.minimum.theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
-      const std::size_t n = f.size();
-      const std::size_t q = system.columns();
-      for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
-        ++tests;
-        std::vector<double> f_of(f.begin(), f.end());
-        std::vector<double> J_of(J.begin(), J.end());  // of the others
-        std::fill_n(f_of.begin(), k, 0.0);
-        for (std::size_t j = 0; j < q; ++j) std::fill_n(&J_of[j * n], k, 0.0);
-        Triangles others(1, q, 0);
-        others.add(0, f_of, J_of);
-        if (!(others.smallest_sine() > 1e-6)) return;  // the first alone determine a parameter
-        const std::vector<double> step = others.solve();
-        std::vector<double> e(f.begin(), f.end());  // around the roll of the others
-        for (std::size_t i = 0; i < J.size(); ++i) e[i % n] += J[i] * step[i / n];
-        const std::span<const double> of_others = std::span(e).subspan(k);
-        const double gone = static_cast<double>(k);
-        const double squares = dot(of_others, of_others);
-        const double left = static_cast<double>(n - q - k);
-        if (!(squares > 0)) continue;
-        const double noise = std::max(squares / left, local_variance(std::span(e).first(k + 5)));
-        const double p = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
-        if (p < found.p) {
-          found = {run, k, t[k] - t[0], p};
-          rest.assign(of_others.begin(), of_others.end());
-        }
+    const System linear = linearised(fit.system(), fit.minimum.theta);
+    const std::size_t n = linear.residuals();
+    const std::size_t q = linear.columns();
+    for (std::size_t k = 3, next = 5; 4 * k <= n; k = std::exchange(next, k + next)) {
+      ++tests;
+      std::vector<double> factors(n, 1);
+      std::fill_n(factors.begin(), k, 0.0);
+      const Minimum others = evaluated(weighted(linear, factors), std::vector<double>(q));
+      if (!(others.R.smallest_sine() > 1e-6)) return;  // the first alone determine a parameter
+      const std::vector<double> e = evaluated(linear, others.R.solve()).f;  // around their roll
+      const std::span<const double> of_others = std::span(e).subspan(k);
+      const double gone = static_cast<double>(k);
+      const double squares = dot(of_others, of_others);
+      const double left = static_cast<double>(n - q - k);
+      if (!(squares > 0)) continue;
+      const double noise = std::max(squares / left, local_variance(std::span(e).first(k + 5)));
+      const double p = gsl_cdf_fdist_Q((fit.minimum.rss - squares) / gone / noise, gone, left);
+      if (p < found.p) {
+        found = {run, k, t[k] - t[0], p};
+        rest.assign(of_others.begin(), of_others.end());
       }
-    });
+    }
   }
 };
 

@@ -117,8 +117,8 @@ class Profile {
   static constexpr double pull = 5;
   double weight() const { return pull / std::sqrt(variance_); }
 
-  /// The system with one more row, which pulls the number to a value. A larger weight would make a
-  /// narrow valley of it, in which a search is slow.
+  /// The system with one more row of the first run, which pulls the number to a value. A larger
+  /// weight would make a narrow valley of it, in which a search is slow.
   System held(double value) const {
     System system = fit_.system();
     ++system.runs.front();
@@ -153,10 +153,7 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
   const std::vector<double>& theta = start.minimum.theta;
   for (const double change : {-normal * profile.sigma(), normal * profile.sigma()}) try {
       const std::vector<double> step = profile.ahead(start, change);
-      double size = 0;
-      for (std::size_t i = 0; i < step.size(); ++i)
-        size = std::max(size, std::abs(step[i]) / std::max(1.0, std::abs(theta[i])));
-      if (size < rounding) continue;
+      if (relative_size(step, theta) < rounding) continue;
       const double off = (profile.at(moved(theta, step)).value - profile.value()) / change - 1;
       if (!(std::abs(off) < levels::bent && bend(rows, theta, step) < levels::bent)) return true;
     } catch (const Error&) {  // there is no roll

@@ -18,29 +18,18 @@ std::vector<std::vector<double>> narrowed(const Fitted& fit,
   constexpr std::size_t few = 8;
   const std::size_t n = fit.model.runs().size();
   if (n <= few) return starts;
-  const Parameters of_few = fit.parameters().of_runs(few);
-  const auto at = [](const std::vector<double>& theta, std::size_t i) {
-    return theta.begin() + static_cast<std::ptrdiff_t>(i);
-  };
-  const std::size_t own = of_few.own();
   std::vector<ObservedRun> runs;
-  for (std::size_t k = 0; k < few; ++k) runs.push_back(fit.model.runs()[k * n / few]);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < few; ++k) chosen.push_back(k * n / few);
+  for (const std::size_t run : chosen) runs.push_back(fit.model.runs()[run]);
   const auto noise = noise_of(runs, fit.noise->added());
-  const System system = system_of(Model(std::move(runs), of_few), noise);
+  const System system = system_of(Model(std::move(runs), fit.parameters().of_runs(few)), noise);
   Minimum best;
-  for (const std::vector<double>& start : starts) {
-    std::vector<double> theta;
-    for (std::size_t k = 0; k < few; ++k) {
-      const std::size_t run = k * n / few;
-      theta.insert(theta.end(), at(start, run * own), at(start, (run + 1) * own));
-    }
-    theta.insert(theta.end(), at(start, n * own), start.end());
-    improve(best, system, theta);
-  }
+  for (const std::vector<double>& start : starts)
+    improve(best, system, fit.parameters().theta_of_runs(start, chosen));
   if (!std::isfinite(best.rss)) return starts;
-  std::vector<double>& start = starts.front();
-  start.resize(n * own);
-  start.insert(start.end(), at(best.theta, few * own), best.theta.cend());
+  std::copy_backward(best.theta.end() - static_cast<std::ptrdiff_t>(system.shared),
+                     best.theta.end(), starts.front().end());
   starts.resize(1);
   return starts;
 }

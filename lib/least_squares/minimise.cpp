@@ -15,6 +15,13 @@ std::vector<double> moved(std::vector<double> theta, const std::vector<double>& 
   return theta;
 }
 
+double relative_size(const std::vector<double>& step, const std::vector<double>& theta) {
+  double size = 0;
+  for (std::size_t j = 0; j < step.size(); ++j)
+    size = std::max(size, std::abs(step[j]) / std::max(1.0, std::abs(theta[j])));
+  return size;
+}
+
 Minimum tried(const System& system, std::vector<double> theta) {
   Minimum at{std::move(theta), {}, {system.runs.size(), system.own, system.shared}, 0};
   at.f.reserve(system.residuals());
@@ -39,14 +46,8 @@ constexpr double undetermined = 1e-10;  // sine between a column of J and those 
 constexpr double round_off = 1e-15;     // relative size of a step that is rounding alone
 constexpr double unseen = 1e-11;        // negligible step / (standard deviation * residuals)
 
-/// The largest relative change of a parameter in the Gauss-Newton step.
-double size_of_step(const Minimum& at) {
-  const std::vector<double> step = at.R.solve();
-  double size = 0;
-  for (std::size_t j = 0; j < step.size(); ++j)
-    size = std::max(size, std::abs(step[j]) / std::max(1.0, std::abs(at.theta[j])));
-  return size;
-}
+/// That of the Gauss-Newton step.
+double size_of_step(const Minimum& at) { return relative_size(at.R.solve(), at.theta); }
 
 /// True if the next step is below rounding, relative to theta or to the standard deviations: the
 /// rounding errors of sums over the residuals grow with their number n.

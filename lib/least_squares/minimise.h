@@ -63,6 +63,9 @@ Minimum tried(const System&, std::vector<double> theta);
 /// The same; throws Error where the model has no finite values.
 Minimum evaluated(const System&, std::vector<double> theta);
 
+/// The largest change of a parameter in a step, relative to its size where that is above 1.
+double relative_size(const std::vector<double>& step, const std::vector<double>& theta);
+
 /// theta + step.
 std::vector<double> moved(std::vector<double> theta, const std::vector<double>& step);
 
@@ -81,6 +84,9 @@ Minimum minimise_robust(const System&, const std::vector<std::vector<double>>& s
 /// The system that is linear in its parameters, which are 0 at theta, with the residuals and the J
 /// that this one has there.
 System linearised(const System&, const std::vector<double>& theta);
+
+/// The system whose residuals are multiplied by these factors. It refers to both.
+System weighted(const System&, const std::vector<double>& factors);
 
 /// ln of the restricted likelihood (Patterson and Thompson 1971, Biometrika 58, 545) of normal
 /// white residuals, up to a constant, with the model linear around theta: -(n - p)/2 ln RSS - ln

@@ -41,21 +41,6 @@ double scale_of(const System& system, const Minimum& at) {
                   1e-13 * std::sqrt(dot(J, J) / static_cast<double>(at.f.size())));
 }
 
-/// The system whose residuals are multiplied by these factors. It refers to both.
-System weighted(const System& system, const std::vector<double>& factors) {
-  return {system.runs, system.own, system.shared,
-          [&](const std::vector<double>& theta, const TakeRows& take) {
-    auto factor = factors.begin();
-    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
-      for (std::size_t i = 0; i < f.size(); ++i, ++factor) {
-        f[i] *= *factor;
-        for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *factor;
-      }
-      take(run, f, J);
-    });
-          }};
-}
-
 /// The half of the rows of each run that a delta fits best, as factors 1 and 0 of all rows, and
 /// the sum of their squares.
 struct Half {
@@ -170,6 +155,20 @@ std::vector<double> sizes_of(const std::vector<double>& f, double scale) {
 
 }  // namespace
 
+System weighted(const System& system, const std::vector<double>& factors) {
+  return {system.runs, system.own, system.shared,
+          [&](const std::vector<double>& theta, const TakeRows& take) {
+    auto factor = factors.begin();
+    system.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
+      for (std::size_t i = 0; i < f.size(); ++i, ++factor) {
+        f[i] *= *factor;
+        for (std::size_t k = i; k < J.size(); k += f.size()) J[k] *= *factor;
+      }
+      take(run, f, J);
+    });
+          }};
+}
+
 Minimum minimise_robust(const System& system, const std::vector<std::vector<double>>& starts) {
   const std::size_t p = system.parameters();
   const bool trimmed = system.residuals() <= 1000 && p <= 12;
@@ -195,18 +194,16 @@ Minimum minimise_robust(const System& system, const std::vector<std::vector<doub
       const System weights = weighted(system, factors);
       // A step of reweighted squares is too short by the ratio of these sums: with it Newton's.
       const double longer = slopes > squares / 2 ? squares / slopes : 1;
-      std::vector<double> next;
+      std::vector<double> step;
       if (change > 0.01) {
-        next = minimise(weights, at.theta).theta;
+        step = minimise(weights, at.theta).theta;
+        std::ranges::transform(step, at.theta, step.begin(), std::minus());
       } else {
-        std::vector<double> step = evaluated(weights, at.theta).R.solve();
+        step = evaluated(weights, at.theta).R.solve();
         for (double& x : step) x *= longer;
-        next = moved(at.theta, step);
       }
-      change = 0;
-      for (std::size_t j = 0; j < p; ++j)
-        change =
-            std::max(change, std::abs(next[j] - at.theta[j]) / std::max(1.0, std::abs(next[j])));
+      std::vector<double> next = moved(at.theta, step);
+      change = relative_size(step, next);
       at = evaluated(system, std::move(next));
       // The bisquare loss has a fixed scale, and so has Huber's after a while: it is made of
       // medians, which may go to and fro between two rows without end.

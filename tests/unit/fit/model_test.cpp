@@ -359,7 +359,9 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
             const auto& by_c = position ? p.x_c : p.v_c;
             q.chain(&single[1], 1, of(1),
                     {position ? p.x_v0 : p.v_v0, 1, by_c[0], by_c[1], 0, by_c[2]});
-            const double value = dense(run.t[i], slopes.data(), 1);
+            Parameters::Numbers by{};
+            const double value = dense(run.t[i], by);
+            q.chain(slopes.data(), 1, of(1), by);
             off[0] =
                 std::max({off[0], std::abs(value - single[0]), std::abs(column[i] - single[0])});
             for (std::size_t j = 0; j < q.columns(); ++j)
