@@ -88,14 +88,18 @@ double variance_of_noise(const std::vector<double>& t, std::vector<double> colum
 /// D(v + u))]; the expectation is that of two values of u.
 std::vector<double> bias_by_speeds(const Fitted& fit, const std::vector<double>& variances) {
   const std::vector<double>& theta = fit.minimum.theta;
+  const double c0 = fit.law().c(0);
   std::vector<double> sum(theta.size());
+  std::vector<double> slopes(theta.size());
   for (std::size_t r = 0; r < variances.size(); ++r) {
     const RawModel D = fit.model.raw(theta, r);
-    std::vector<double> slopes(theta.size());
+    Parameters::Numbers by{};
     for (const double v : fit.model.runs()[r].t) {
       const double u = std::min(std::sqrt(variances[r]), v / 2);
+      const double truth = D(v, by);
       for (const double seen : {v - u, v + u}) {
-        const double off = D(v, slopes.data(), 1) - D(seen, slopes.data(), 1);
+        const double off = truth - D(seen, by);
+        fit.parameters().chain(slopes.data(), 1, c0, by);
         for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += slopes[j] * off / 2;
       }
     }
