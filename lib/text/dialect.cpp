@@ -95,13 +95,9 @@ Unquoted outside_quotes(std::string_view text, std::string_view between, bool wi
   return outside;
 }
 
-bool needs_quotes(std::string_view field) {
-  return field.starts_with('#') ||
-         std::ranges::any_of(field, [](char c) { return c == quote || c == '\t' || c == '\n'; });
-}
-
 void append_field(Bytes& line, std::string_view field) {
-  if (!needs_quotes(field)) return line.append(field);
+  const auto is_special = [](char c) { return c == quote || c == '\t' || c == '\n'; };
+  if (!field.starts_with('#') && std::ranges::none_of(field, is_special)) return line.append(field);
   line.push_back(quote);
   for (const char c : field) {
     if (c == quote) line.push_back(quote);
@@ -148,7 +144,6 @@ std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
   made_.clear();
   made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
-  as_it_stands_ = separator_ == '\t';
   const char *at = line.data(), *const end = at + line.size();
   if (separator_ == '\0') {
     split_blanks(at, end);
@@ -171,7 +166,6 @@ const char* Dialect::split_with_commas(std::string_view text, std::span<const Fi
   if (made_.find('.') != npos) return nullptr;
   std::ranges::replace(made_, ',', '.');
   const char* const end = split_with_points(made_, fields);
-  as_it_stands_ = false;
   // A comma in a text is not a decimal one.
   const auto is_changed_text = [](const Field& field) {
     return !field.wanted && field.text.find('.') != npos && !is_number(field.text);
@@ -184,16 +178,12 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
   const char *at = text.data(), *const end = at + text.size();
   const bool blanks = separator_ == '\0';
   const char separator = blanks ? ' ' : separator_;
-  as_it_stands_ = separator == '\t';
   for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field) {
     if (blanks) at = skip_blanks(at, end);
     const char* first = at;
     at = read_plain(first, end, *field);
     const bool quoted = at == first && at != end && *at == quote && !blanks;
-    if (quoted) {
-      as_it_stands_ = false;
-      at = read_plain(++first, end, *field);
-    }
+    if (quoted) at = read_plain(++first, end, *field);
     field->text = {first, at};
     if (at == first || at == end) return nullptr;
     if (quoted && (*at++ != quote || at == end)) return nullptr;
@@ -228,14 +218,11 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     if (!text) fail("field {}: text behind the quotes of '{}'", count_, shown(rest));
     made_ += *text;
     field.text = std::string_view(made_).substr(made_.size() - text->size());
-    as_it_stands_ = false;
     at = rest.data();
   } else {
     at += std::min(std::string_view(at, end).find(separator_), static_cast<std::size_t>(end - at));
     field.text = trim({first, at});
-    as_it_stands_ &= field.text.size() == static_cast<std::size_t>(at - first);
   }
-  as_it_stands_ &= !needs_quotes(field.text);
   if (allows_foreign() && rewrite(field)) return at;
   if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
   return at;
@@ -299,7 +286,6 @@ bool Dialect::rewrite(Field& field) {
            shown(field.text));
   }
   if (field.wanted) field.number = number;
-  as_it_stands_ &= is_plain;
   field.text = text;
   return true;
 }

@@ -42,11 +42,8 @@ struct Unquoted {
 /// within such a field already, and behind one of these separators.
 Unquoted outside_quotes(std::string_view text, std::string_view separators, bool within = false);
 
-/// True for a field that must be quoted in a tab-separated line: it contains a tab, a line end or a
-/// quote, or begins with #.
-bool needs_quotes(std::string_view field);
-
-/// Appends a field to a tab-separated line, in quotes if it needs them.
+/// Appends a field to a tab-separated line, in quotes if it contains a tab, a line end or a quote,
+/// or begins with #.
 void append_field(Bytes& line, std::string_view field);
 
 /// A field without its quotes and the blanks around it.
@@ -84,8 +81,6 @@ class Dialect {
   /// split().
   const char* split_plain(std::string_view text, std::span<const Field>& fields);
 
-  /// The last line can be written out unchanged: it is its fields with tabs between them.
-  bool as_it_stands() const { return as_it_stands_; }
   char separator() const { return separator_; }  ///< '\0' for blanks
 
  private:
@@ -114,9 +109,8 @@ class Dialect {
   bool asks_ = true;               // a point may separate thousands, if a comma may be decimal
   bool passed_thousands_ = false;  // a number has passed whose mark may separate thousands
   std::vector<Seen> seen_;         // by field
-  bool as_it_stands_ = false;
-  std::vector<Field> fields_;  // as many as the longest line had
-  std::size_t count_ = 0;      // fields of this line
+  std::vector<Field> fields_;      // as many as the longest line had
+  std::size_t count_ = 0;          // fields of this line
   // The texts of fields that were rewritten. Fields point into it, so it may not be reallocated.
   std::string made_;
 };

@@ -79,7 +79,6 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
   }
   quantities_ = std::move(served);
   serve_by_units();
-  converts_ = false;
   for (Needed& needed : needed_) resolve(needed);
   name_columns();
 }
@@ -230,7 +229,6 @@ void NeededColumns::resolve(Needed& needed) {
   if (by_unit_.contains(*found) && quantity == needed.name)
     assume(*found, quantity, ", by its unit");
   needed.to_si = conversion(needed);
-  converts_ |= needed.to_si.changes();
 }
 
 /// Notes what is assumed of a column that serves as `quantity`, once for all runs.

@@ -50,8 +50,6 @@ class NeededColumns {
   /// Error like begin_run().
   std::size_t add(std::string_view name, Kind, std::string_view unit = {});
   const std::vector<Needed>& all() const { return needed_; }
-  /// A column of this run must be converted.
-  bool converts() const { return converts_; }
 
   /// Index of the column that serves as `name` (a name, a 1-based number, or what --use says), if
   /// there is one. Where no name is t, or v or x, the only column in a unit of it serves as it.
@@ -85,7 +83,6 @@ class NeededColumns {
   std::map<std::string, std::string> use_;  // what --use gives a quantity, as it was typed
   bool has_use_;
   std::vector<Needed> needed_;
-  bool converts_ = false;
   std::string assumed_;
 
   // The run.

@@ -87,17 +87,7 @@ class Reader {
   static constexpr std::size_t no_column = NeededColumns::no_column;
   /// Appends the present row as it goes out, tab-separated, without the text of a column;
   /// returns where in it that column stands, or its length if there is none.
-  std::size_t append_text(Bytes& to, std::size_t column = no_column) {
-    if (!dialect_.as_it_stands() || needed_.converts() || fields_changed_ || reads_clock_)
-      return append_made(to, column);
-    const std::string_view line = lines_->text();
-    const std::string_view field =
-        column < fields_.size() ? fields_[column].text : line.substr(line.size());
-    const auto place = static_cast<std::size_t>(field.data() - line.data());
-    to.append(line.substr(0, place));
-    if (place + field.size() < line.size()) to.append(line.substr(place + field.size()));
-    return place;
-  }
+  std::size_t append_text(Bytes& to, std::size_t column = no_column);
   /// The comments between the previous row and the present one; after the last row of a run,
   /// those up to the end of the run.
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -143,7 +133,6 @@ class Reader {
   double read_text(const NeededColumns::Needed&);
   void check_time(const NeededColumns::Needed&, double t);
   void note_jump(const NeededColumns::Needed&, double t);
-  std::size_t append_made(Bytes& to, std::size_t column);
   [[noreturn]] void refuse(const NeededColumns::Needed&, std::string_view why) const;
   std::string here() const;
 
@@ -170,7 +159,7 @@ class Reader {
   std::vector<double> values_;  // of the needed columns, by slot
   std::span<const Field> fields_;
   std::vector<Field> changed_fields_;
-  bool fields_changed_ = false, large_time_ = false;
+  bool large_time_ = false;
   std::size_t time_slot_ = no_column;
   Clock clock_;                           // of this run
   bool reads_clock_ = false;              // its times are read by it

@@ -145,8 +145,9 @@ double Reader::read_text(const NeededColumns::Needed& needed) {
 
 /// Reads the needed numbers of the row; false if one is missing.
 inline bool Reader::take_row() {
-  fields_changed_ = fields_.size() != head_.layout.width() || head_.layout.side_by_side();
-  if (fields_changed_ && !take_fields()) return false;
+  const bool all_are_of_run =
+      fields_.size() == head_.layout.width() && !head_.layout.side_by_side();
+  if (!all_are_of_run && !take_fields()) return false;
   double* to = values_.data();
   for (const NeededColumns::Needed& needed : needed_.all()) {
     *to = read(needed);
@@ -195,8 +196,7 @@ inline void Reader::note_jump(const NeededColumns::Needed& needed, double t) {
   last_step_ = step;
 }
 
-/// append_text() of a row that is not written as it was read.
-std::size_t Reader::append_made(Bytes& to, std::size_t column) {
+std::size_t Reader::append_text(Bytes& to, std::size_t column) {
   const std::vector<NeededColumns::Needed>& needed = needed_.all();
   const std::size_t begin = to.size();
   std::size_t place = no_column;
@@ -212,7 +212,8 @@ std::size_t Reader::append_made(Bytes& to, std::size_t column) {
     const auto slot =
         static_cast<std::size_t>(std::ranges::find_if(needed, is_it) - needed.begin());
     if (slot < needed.size() && !std::isnan(values_[slot])) append_number(to, values_[slot]);
-    else append_field(to, fields_[i].text);
+    else if (std::isnan(fields_[i].number)) append_field(to, fields_[i].text);
+    else to.append(fields_[i].text);
   }
   return std::min(place, to.size() - begin);
 }
