@@ -268,7 +268,9 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
 
 namespace {
 
-/// The raw column of a roll, as a Chebyshev series where the times are dense.
+/// The raw column of a roll, as a Chebyshev series where the times are dense, with its derivatives
+/// by the first numbers: those of a given scene are not wanted, and would make it slower.
+template <std::size_t columns>
 RawModel rolled(const ObservedRun& run, Roll roll, double x0) {
   using Q = Parameters;
   const double last = run.t.back();
@@ -278,14 +280,16 @@ RawModel rolled(const ObservedRun& run, Roll roll, double x0) {
     const Roll::Point p = roll.at(t);
     const Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
     const std::size_t slope = roll.law().size();  // then wind and steepness; way^2 is 1
-    std::array<double, 1 + Q::most> values{x0 + way * (position ? p.x : p.v),
+    std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v),
                                            way * (position ? p.x_v0 : p.v_v0),
                                            position ? p.x_x0 : p.v_x0};
     double* const by = &values[1];
     for (std::size_t j = 0; j < slope; ++j) by[Q::first_of_law + j] = way * by_c[j];
-    by[Q::first_of_scene] = by_c[slope];
-    by[Q::first_of_scene + 1] = way * by_c[slope + 2];
-    by[Q::first_of_scene + place_of_wind] = by_c[slope + 1];
+    if constexpr (columns > Q::first_of_scene) {
+      by[Q::first_of_scene] = by_c[slope];
+      by[Q::first_of_scene + 1] = way * by_c[slope + 2];
+      by[Q::first_of_scene + place_of_wind] = by_c[slope + 1];
+    }
     return values;
   };
   const auto written = [](auto at) {
@@ -303,7 +307,11 @@ RawModel rolled(const ObservedRun& run, Roll roll, double x0) {
 
 RawModel Model::raw(const std::vector<double>& theta, std::size_t r) const {
   const ObservedRun& run = runs()[r];
-  if (is_roll()) return rolled(run, roll(theta, r), parameters_.x0(theta, r));
+  if (is_roll()) {
+    using Q = Parameters;
+    const auto of = parameters_.scene() > 0 ? rolled<Q::most> : rolled<Q::first_of_scene>;
+    return of(run, roll(theta, r), parameters_.x0(theta, r));
+  }
   return
       [law = parameters_.law(theta), logarithm = run.logarithm](double v, Parameters::Numbers& by) {
     double* const by_c = &by[Parameters::first_of_law];
