@@ -104,13 +104,16 @@ Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   return thin;
 }
 
-/// D under which bodies slow down evenly as these do, by linear least squares of their speeds, and
-/// the slope of the mat if it is a parameter: 0 where it is not determined or D would not be
-/// positive.
+/// D under which bodies slow down evenly as these do, and the slope of the mat if it is a
+/// parameter: 0 where it is not determined or D would not be positive.
 struct EvenRoll {
   double D, slope;
+  double v, time;  ///< a speed between the first and the last one, and how long they roll
+  std::vector<double> v0 = {};  ///< of each run, along the motion
+  std::vector<double> x0 = {};
 };
 
+/// By linear least squares of their speeds.
 EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   const Body& body = thin.front().run.body;
   const double time = thin.front().run.t.back();
@@ -131,7 +134,13 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   }
   const std::vector<double> c = all.solve();
   if (fit_slope && !(all.smallest_sine() > 1e-9 && c[0] >= least)) return even_roll(thin, false);
-  return {c[0] >= least ? c[0] : least, fit_slope ? c[1] : 0};
+  EvenRoll even{c[0] >= least ? c[0] : least, fit_slope ? c[1] : 0, thin.front().fastest() / 2,
+                time};
+  for (const auto& [run, most, turns, speeds] : thin) {
+    even.v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
+    even.x0.push_back(run.y[0] - run.way * even.v0.back() * run.t[0]);
+  }
+  return even;
 }
 
 /// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well.
@@ -202,86 +211,70 @@ EndOfRun end_of(const ObservedRun& run, const std::vector<double>& x, bool first
 }
 
 /// The same on a road: D by the energy that is lost between the ends of the runs.
-FirstGuess guess_on_road(const std::vector<ObservedRun>& runs, const FitOptions& options) {
+EvenRoll even_roll_on_road(const std::vector<ObservedRun>& runs) {
   const bool position = runs.front().column == Quantity::x;
-  std::vector<double> v0;
-  std::vector<double> x0;
+  EvenRoll even{};
   double lost = 0;
   double all = 0;  // the way, in units of R
-  double time = 0;
   for (const ObservedRun& run : runs) {
     std::vector<double> x = run.y;
     for (std::size_t i = 0; i < x.size() && !position; ++i)
       x[i] = i == 0 ? run.x0 : x[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
     const EndOfRun begin = end_of(run, x, true);
     const EndOfRun end = end_of(run, x, false);
-    v0.push_back(run.way * begin.v);
-    x0.push_back(begin.x);
+    even.v0.push_back(run.way * begin.v);
+    even.x0.push_back(begin.x);
     const auto energy = [&](const EndOfRun& at) {
       return (1 + run.body.K) / 2 * at.v * at.v / run.body.g + run.body.road->at(at.x).h;
     };
     lost += energy(begin) - energy(end);
     for (std::size_t i = 1; i < x.size(); ++i) all += std::abs(x[i] - x[i - 1]) / run.body.R;
-    time += run.t.back();
+    even.time += run.t.back();
   }
-  const double v = all * runs.front().body.R / time;
-  if (!(v > 0)) fail("{}the body does not move: a and b cannot be determined", runs[0].place);
-  const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
-  const System system = system_of(Model(runs, q));
-  FirstGuess guess{q, {}};
-  Minimum best;
-  for (const double part : {1.0, 0.4, 2.5})
-    for (const double b : {0.03, 0.5}) {
-      const double D = part * std::max(lost / all, 1e-3 * runs.front().body.R);
-      const double held = options.b.value_or(b);
-      guess.starts.push_back(q.theta({options.a.value_or(D / std::pow(v, held)), held}, v0, x0));
-      Minimum here = tried(system, guess.starts.back());
-      if (here.rss < best.rss) best = std::move(here);
-    }
-  if (std::isfinite(best.rss)) improve(best, system, std::vector<double>(best.theta));
-  if (!std::isfinite(best.rss)) {
-    for (std::size_t r = 0; r < runs.size(); ++r)  // this says why
-      Model(runs, q).roll(guess.starts.front(), r).at(runs[r].t.back());
-    fail("no roll on this road comes near the readings");
-  }
-  guess.starts.insert(guess.starts.begin(), std::move(best.theta));
-  return guess;
+  even.v = all * runs.front().body.R / even.time;
+  if (!(even.v > 0)) fail("{}the body does not move: a and b cannot be determined", runs[0].place);
+  even.D = std::max(lost / all, 1e-3 * runs.front().body.R);
+  return even;
 }
 
 }  // namespace
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
-  if (runs.front().body.road) return guess_on_road(runs, options);
+  const bool on_road = runs.front().body.road != nullptr;
   std::vector<Thinned> thin;
-  std::vector<ObservedRun> thin_runs;
-  for (ObservedRun run : runs) {
-    if (options.robust) run.y = medians_of_five(run.y);  // suppresses false echoes
-    thin.push_back(thinned(run, options));
-    thin_runs.push_back(thin.back().run);
+  std::vector<ObservedRun> seen = runs;
+  for (std::size_t r = 0; r < runs.size() && !on_road; ++r) {
+    if (options.robust) seen[r].y = medians_of_five(seen[r].y);  // suppresses false echoes
+    thin.push_back(thinned(seen[r], options));
+    seen[r] = thin.back().run;
   }
+  const EvenRoll even = on_road ? even_roll_on_road(runs) : even_roll(thin, options.fit_slope);
   const bool position = runs.front().column == Quantity::x;
-  const double v = thin.front().fastest() / 2;
-  const double time = std::max(thin.front().run.t.back(), std::numeric_limits<double>::min());
-  const Parameters q(options, position, runs.size(), v, position ? v * time : 1);
-  std::vector<double> v0;
-  std::vector<double> x0;
-  for (const auto& [run, most, turns, speeds] : thin) {
-    v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
-    x0.push_back(run.y[0] - run.way * v0.back() * run.t[0]);
-  }
-  // For a grid of exponents: the shift at half of the highest speed is that of an even
-  // deceleration.
-  const EvenRoll even = even_roll(thin, options.fit_slope);
+  const Parameters q(options, position, runs.size(), even.v, position ? even.v * even.time : 1);
+  // For a grid of laws: the shift at that speed is that of an even deceleration.
   std::vector<double> exponents{0.25, 0, 1, -0.5};
+  if (on_road) exponents = {0.03, 0.5};
   if (options.b) exponents = {*options.b};
   std::vector<std::vector<double>> all;
-  for (const double b : exponents) {
-    const double a = options.a.value_or(even.D * std::pow(v, -b));
-    all.push_back(q.theta({a, b}, v0, x0, even.slope));
-  }
-  const Model model(std::move(thin_runs), q);
+  for (const double part : on_road ? std::vector{1.0, 0.4, 2.5} : std::vector{1.0})
+    for (const double b : exponents) {
+      const double a = options.a.value_or(part * even.D * std::pow(even.v, -b));
+      all.push_back(q.theta({a, b}, even.v0, even.x0, even.slope));
+    }
+  const Model model(std::move(seen), q);
   const System system = system_of(model);
-  Minimum best{all[0]};
+  Minimum best;
+  if (on_road) {
+    for (const std::vector<double>& start : all)
+      if (Minimum here = tried(system, start); here.rss < best.rss) best = std::move(here);
+    if (std::isfinite(best.rss)) improve(best, system, std::vector<double>(best.theta));
+    for (std::size_t r = 0; r < runs.size() && !std::isfinite(best.rss); ++r)  // this says why
+      model.roll(all.front(), r).at(runs[r].t.back());
+    if (!std::isfinite(best.rss)) fail("no roll on this road comes near the readings");
+    all.insert(all.begin(), std::move(best.theta));
+    return {q, std::move(all)};
+  }
+  best.theta = all[0];
   for (const std::vector<double>& start : all) improve(best, system, start);
   // A body that turns on a slope would be held there by a law with b < 0, so that the sum of
   // squares has a wall at b = 0. A search that comes to the wall before the other parameters are
