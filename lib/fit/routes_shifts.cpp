@@ -88,7 +88,7 @@ double variance_of_noise(const std::vector<double>& t, std::vector<double> colum
 /// D(v + u))]; the expectation is that of two values of u.
 std::vector<double> bias_by_speeds(const Fitted& fit, const std::vector<double>& variances) {
   const std::vector<double>& theta = fit.minimum.theta;
-  const double c0 = fit.law().c(0);
+  const double c0 = fit.parameters().law(theta).c(0);
   std::vector<double> sum(theta.size());
   std::vector<double> slopes(theta.size());
   for (std::size_t r = 0; r < variances.size(); ++r) {

@@ -138,6 +138,12 @@ TEST_CASE("shift: noise of the speeds counts as a bias", "[fit][many]") {
   CHECK(a >= at_least(runs, 0.9));
   CHECK(b >= at_least(runs, 0.9));
   CHECK(std::abs(bias / mean - 1) < 0.4);
+  // In another unit of speed the exponent and its bias are the same.
+  Run run = rows(0.05, noise);
+  const double here = bias_of_b(fit(Route::shift, {run}, {}));
+  for (double& v : run.v) v *= 10;
+  CHECK(here > 0);
+  CHECK(bias_of_b(fit(Route::shift, {run}, {})) == Approx(here).epsilon(1e-6));
   const FitResult exact = fit(Route::shift, {rows(0, noise)}, {});
   CHECK(bias_of_b(exact) < 1e-6 * exact.sigma_b);
 }
