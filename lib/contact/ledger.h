@@ -137,9 +137,8 @@ class Integral {
 /// which gives the flows, is right for the velocity, which gives what is stored.
 class Account {
  public:
-  /// Without an incline gravity takes nothing, and its part is not computed. At rest so much flows
-  /// into the mat per second.
-  explicit Account(bool inclined, double at_rest = 0) : mat_(at_rest), inclined_(inclined) {}
+  /// At rest so much flows into the mat per second.
+  explicit Account(double at_rest = 0) : mat_(at_rest) {}
 
   /// Adds the next row of the run: its time [s], what is stored, and what flows out per second into
   /// the mat and to gravity.
@@ -151,7 +150,7 @@ class Account {
     begun_ = true;
     end_ = stored;
     mat_.push(t, to_mat);
-    if (inclined_) gravity_.push(t, to_gravity);
+    gravity_.push(t, to_gravity);
     const double off = std::abs(missing() - mat_.value());
     // There is no branch, which the processor would often predict wrongly: noise decides.
     const double times[] = {worst_time_, t};
@@ -179,7 +178,6 @@ class Account {
   double missing() const { return start_ - end_ - to_gravity(); }
 
   Integral mat_, gravity_;
-  bool inclined_;
   bool begun_ = false;
   double start_ = 0, end_ = 0, lifted_ = 0;
   double worst_ = 0, worst_time_ = 0;  // the largest imbalance and its time [s]
@@ -191,13 +189,12 @@ class Balance {
   /// The momenta are left out unless they are asked for. On a road the energy that is lifted is set
   /// by the caller, from the height.
   Balance(const Body& body, bool momenta)
-      : energy(body.slope != 0), p(body.slope != 0 || body.road, at_rest(body).I_pH()),
-        L(false, at_rest(body).I_LH() + at_rest(body).I_LN()), L_H_(at_rest(body).tau_H()),
-        momenta_(momenta) {}
+      : p(at_rest(body).I_pH()), L(at_rest(body).I_LH() + at_rest(body).I_LN()),
+        L_H_(at_rest(body).tau_H()), on_road_(body.road), momenta_(momenta) {}
 
   /// Adds the next row of the run: its time [s] and its quantities.
   void push(double t, const Ledger& now) {
-    energy.push(t, now.E(), now.P_diss(), now.P_g());
+    energy.push(t, now.E(), now.P_diss(), on_road_ ? 0 : now.P_g());
     if (!momenta_) return;
     p.push(t, now.p(), now.I_pH(), now.F_g());
     L.push(t, now.L(), now.I_LH() + now.I_LN(), 0);
@@ -217,7 +214,7 @@ class Balance {
   static Ledger at_rest(const Body& body) { return {body, Geometry::approximate, 0, 0}; }
 
   Integral L_H_, air_;
-  bool momenta_;
+  bool on_road_, momenta_;
 };
 
 }  // namespace rolling

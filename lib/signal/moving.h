@@ -20,13 +20,6 @@ class ExactSum {
  public:
   void add(double y) { y == 0 ? add_zero(y, 1) : add_term(y); }
   void subtract(double y) { y == 0 ? add_zero(y, -1) : add_term(-y); }
-  /// Adds y and subtracts `old`.
-  void exchange(double y, double old) {
-    const TwoSum change = two_sum(y, -old);  // usually exact for neighbours in a column
-    if (change.lo == 0 && y != 0 && old != 0) return add_term(change.hi);
-    add(y);
-    subtract(old);
-  }
   /// The sum divided by n, within 1 ulp of the exact quotient; -0 if all n terms are -0. n is 1 to
   /// 2^30.
   double over(std::size_t n) const {

@@ -113,10 +113,6 @@ class Sliding {
   /// Of the present window: each reading that has entered is added, each that has left subtracted.
   const Held& of(const Windows& window) {
     const auto y = [&](std::size_t i) { return window.sample(i).y; };
-    if (begin_ + 1 == window.begin() && end_ + 1 == window.end()) {
-      held_.exchange(y(end_++), y(begin_++));
-      return held_;
-    }
     while (begin_ > window.begin()) held_.add(y(--begin_));
     while (end_ < window.end()) held_.add(y(end_++));
     while (begin_ < window.begin()) held_.subtract(y(begin_++));
@@ -136,17 +132,6 @@ class SortedWindow {
   void add(double y) { sorted_.insert(std::ranges::upper_bound(sorted_, y), y); }
   /// Of a reading that is in the window.
   void subtract(double y) { sorted_.erase(std::ranges::lower_bound(sorted_, y)); }
-  /// The same as subtract(old) and add(y); the readings between them alone are moved.
-  void exchange(double y, double old) {
-    const auto from = std::ranges::lower_bound(sorted_, old);
-    const auto to = std::ranges::lower_bound(sorted_, y);
-    if (from < to) {
-      *std::move(from + 1, to, from) = y;
-    } else {
-      std::move_backward(to, from, from + 1);
-      *to = y;
-    }
-  }
   std::size_t size() const { return sorted_.size(); }
   double operator[](std::size_t rank) const { return sorted_[rank]; }
 

@@ -32,8 +32,8 @@ TEST_CASE("sorted_window: as sorting has it, with ties too", "[signal]") {
       check(from, to);
     }
     while (to < 7000) {  // it slides
-      if (to - from < 100) window.add(all[to++]);
-      else window.exchange(all[to++], all[from++]);
+      window.add(all[to++]);
+      if (to - from > 100) window.subtract(all[from++]);
     }
     check(from, to);
   }

@@ -23,7 +23,6 @@ struct Held {
   std::multiset<double> readings;
   void add(double y) { readings.insert(y); }
   void subtract(double y) { CHECK(readings.erase(y) == 1); }
-  void exchange(double y, double old) { add(y), subtract(old); }
 };
 
 /// The windows of a run, and with each how many samples had come when it was known. What Sliding
