@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "bench/coverage_cases.h"
 #include "cli/history.h"
-#include "cli/history.h"
 #include "fit/fit.h"
 #include "motion/roll.h"
 #include "motion/scene.h"
