@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# road-load.sh -m MASS --rotating KG [OPTION]... OUT... [--back FILE]...: the road load of a vehicle
+# road-load.sh -m MASS --rotating KG [OPTION]... OUT... [--back FILE...]: the road load of a vehicle
 # from the coast-downs of a test day, F = f0 + f1 v + f2 v^2, with standard uncertainties.
 #
 #   OUT...           runs one way: time and speed, in the units of their header (km/h, mph, m/s)
-#   --back FILE      a run the other way, whose speeds have no sign; may be repeated
+#   --back FILE...   runs the other way, whose speeds have no sign: all files that follow
 #   -m MASS          mass of the vehicle, the mean of the day [kg]
-#   --rotating KG    equivalent mass of what turns [kg]: by GTR 15, 3 % of the mass in running order
-#                    and 25 kg
-#   --no-f1          F = f0 + f2 v^2, which two coefficients determine seven times better
+#   --rotating KG    equivalent mass of what turns [kg]: the sum of I/r^2 of the wheels, or, by GTR 15,
+#                    3 % of the mass in running order and 25 kg
+#   --no-f1          F = f0 + f2 v^2: its f0 and f2 are known seven times better, if f1 is 0
 #   --slope S|fit    rise of the road along OUT (with --back fit, else 0)
 #   --height FILE    height of the road [m] over the way x [m]; --x0 X,... where the runs begin
 #   --wind W|fit     head wind of OUT [m/s]; or the wind that all runs have in common
 #   --column NAME=COLUMN   which column serves as t or v, as --use of the tools; may be repeated
-#   -T C -p KPA      temperature and pressure of the day: then it prints the load at the standard, too
+#   -T C -p KPA      temperature and pressure of the day: then it prints C_d A, and the load at the
+#                    standard
 #   --standard NAME  gtr15 (20 C, 100 kPa) or cfr (40 CFR 1066.805: 20 C, 98.21 kPa)
 #   --test-mass TM   mass of the standard [kg] (MASS)
 #   --anemometer W   mean speed of the wind that was measured [m/s] (0), if it is not fitted
@@ -26,16 +27,16 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
-m='' rotating='' slope='' wind='' T='' p='' standard=gtr15 TM='' measured=0 svg='' law='d0+d1*v+d2*v^2'
+m='' rotating='' slope='' wind='' T='' p='' standard=gtr15 TM='' measured=0 svg='' law='d0+d1*v+d2*v^2' way=out
 road=() use=() out=() back=()
 while [ $# -gt 0 ]; do
   case $1 in
     --no-f1) law='d0+d2*v^2'; shift; continue ;;
+    --back) way=back; shift; continue ;;
     -?*) [ $# -gt 1 ] || wrong "$1 needs a value" ;;
-    *) out+=("$1"); shift; continue ;;
+    *) [ "$way" = out ] && out+=("$1") || back+=("$1"); shift; continue ;;
   esac
   case $1 in
-    --back) back+=("$2") ;;
     -m) m=$2 ;;
     --rotating) rotating=$2 ;;
     --slope) slope=$2 ;;
@@ -88,7 +89,9 @@ K=$(awk "BEGIN { print $rotating / $m }")
 fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"
 }
-fit "$scratch/runs" >"$scratch/row"
+# That R is 1 is an idea of this script, which fitpower doubts.
+fit "$scratch/runs" >"$scratch/row" 2>"$scratch/said" || { cat "$scratch/said" >&2 && exit 1; }
+grep -v ': if they are swapped' "$scratch/said" >&2 || true
 
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,
@@ -123,15 +126,18 @@ awk -F '\t' -v m="$m" -v T="$T" -v p="$p" -v pressure="$pressure" -v TM="${TM:-$
     for (k = 0; k < 3; k++) if (k in f) line("f" k "_" standard, scale[k] * f[k] - (k ? 0 : warmth * w1), scale[k] * s[k], unit[k])
   }' "$scratch/row"
 
-# The pairs: each run under its own law, on the road and in the wind that all have, and its time from
-# 5 km/h above to 5 km/h below each speed.
+# The pairs: each run under its own law, on the road and in the wind that all have, as long as it was
+# measured, and its time from 5 km/h above to 5 km/h below each speed.
+ends() {  # RUN: its last time
+  awk -F '\t' -v run="## run $1" '/^## run / { on = $0 == run } on && !/^#/ && NF { t = $1 } END { print t }' "$scratch/runs"
+}
 pairs() {
   value() { columns "$scratch/row" "$1"; }
   [ "$slope" != fit ] || road=(--slope="$(value slope)")
   [ "$wind" != fit ] || wind=$(value wind)
   fit -q --each "$scratch/runs" >"$scratch/rows"
   sed -n 's/^## run //p' "$scratch/runs" | while IFS= read -r run; do
-    simulate -q --law "$scratch/rows" --run "$run" --dt 0.1 --columns t,v
+    simulate -q --law "$scratch/rows" --run "$run" --dt 0.1 --until "$(ends "$run")" --columns t,v
   done | awk -F '\t' -v n=${#out[@]} -v moving="$(awk "BEGIN { print $m + $rotating }")" '
     function took(run, speed) {  # from 5 km/h above to 5 km/h below; 0 if the run has not both
       if (!((run, speed - 5) in time && (run, speed + 5) in time)) return 0

@@ -35,7 +35,7 @@ struct BodyOption {
 static constexpr BodyOption body_options[] = {
     {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]", 0, INFINITY, ""},
     {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]", 0, 1,
-     "R = {} m: if that is millimetres, write {}", 1e-3},
+     "R = {} m: if that is millimetres, write {}; of centimetres, ten times that", 1e-3},
     {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative, "shape factor K of J = K m R^2",
      0, 1, "K = {}: a cart has about 0, a ball 0.4, a solid cylinder 0.5, a tube 1"},
     {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)", 0.1, 100,

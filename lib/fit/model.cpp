@@ -28,28 +28,6 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
   return few;
 }
 
-/// The direction before the furthest place, from which the body comes back; 0 if it does not.
-double way_before_turn(bool position, const std::vector<double>& t,
-                       const std::vector<double>& rows) {
-  constexpr std::size_t most = 2000;  // a direction needs no more
-  std::vector<double> x;
-  double way = 0;
-  for (std::size_t i = 0, step = 1 + rows.size() / most; i < rows.size(); ++i) {
-    if (!position && i > 0) way += (rows[i] + rows[i - 1]) / 2 * (t[i] - t[i - 1]);
-    if (i % step == 0) x.push_back(position ? rows[i] : way);
-  }
-  const std::vector<double> smooth = medians_of_five(x);
-  const auto [least, greatest] = std::ranges::minmax(smooth);
-  const double begin = smooth.front();
-  const double end = smooth.back();
-  const double up = std::min(greatest - begin, greatest - end);
-  const double down = std::min(begin - least, end - least);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
-  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // of a sum
-  const double limit = 0.002 * (greatest - least) + errors * deviation(x);
-  return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
-}
-
 }  // namespace
 
 Parameters::Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref,
@@ -173,6 +151,27 @@ void Parameters::chain(double* to, std::size_t stride, double c0,
     if (i == first_of_law + 1 && fixed(0)) by_theta += c0 * std::log(v_unit_) * by[first_of_law];
     *std::exchange(to, to + stride) = by_theta;
   }
+}
+
+double way_before_turn(bool position, const std::vector<double>& t,
+                       const std::vector<double>& rows) {
+  constexpr std::size_t most = 2000;  // a direction needs no more
+  std::vector<double> x;
+  double way = 0;
+  for (std::size_t i = 0, step = 1 + rows.size() / most; i < rows.size(); ++i) {
+    if (!position && i > 0) way += (rows[i] + rows[i - 1]) / 2 * (t[i] - t[i - 1]);
+    if (i % step == 0) x.push_back(position ? rows[i] : way);
+  }
+  const std::vector<double> smooth = medians_of_five(x);
+  const auto [least, greatest] = std::ranges::minmax(smooth);
+  const double begin = smooth.front();
+  const double end = smooth.back();
+  const double up = std::min(greatest - begin, greatest - end);
+  const double down = std::min(begin - least, end - least);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
+  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // of a sum
+  const double limit = 0.002 * (greatest - least) + errors * deviation(x);
+  return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
 
 double way_of(bool position, const std::vector<double>& t, const std::vector<double>& rows,

@@ -116,6 +116,11 @@ class Parameters {
   double v_unit_ = 1;
 };
 
+/// The direction before the furthest place of these positions or speeds, from which the body comes
+/// back; 0 if it does not, or by no more than noise and 0.2 % of its way.
+double way_before_turn(bool position, const std::vector<double>& t,
+                       const std::vector<double>& rows);
+
 /// The direction of motion, +1 or -1, of positions or speeds at these times: the first one, where
 /// the body turns on a slope, which its furthest place tells. A few false echoes do not decide.
 /// What it comes back must be more than noise.

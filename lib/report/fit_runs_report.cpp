@@ -91,6 +91,7 @@ class Remarks {
 
   void make() {
     geometry();
+    comes_back();
     if (r_.agreement) {
       const std::string found = disagreement(*r_.agreement, fit_.runs, tool_.checks);
       if (!found.empty()) object("", found + ways_to_agree());
@@ -146,6 +147,26 @@ class Remarks {
       if (beyond) object(fit_.runs[i].name, text);
       else tool_.warn(fit_.runs[i].name, text);
       break;
+    }
+  }
+
+  /// A body that comes back on a mat that is taken for level.
+  void comes_back() {
+    if (!is_trajectory(fit_.route) || options_.fit_slope) return;
+    for (const Run& run : fit_.runs) {
+      if (run.body.slope != 0 || run.body.road) continue;
+      const std::vector<double>& readings = run[fitted_column(fit_.route)];
+      std::vector<double> t;
+      std::vector<double> y;
+      for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (!std::isfinite(readings[i])) continue;
+        t.push_back(run.t[i]);
+        y.push_back(readings[i]);
+      }
+      if (way_before_turn(fit_.route == Route::position, t, y) != 0)
+        object(run.name,
+               "the body comes back, which it does on no level mat: give --slope, or fit it with "
+               "--slope fit");
     }
   }
 

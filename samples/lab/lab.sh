@@ -103,6 +103,7 @@ law=$new/table.txt failed=0
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt
   fitpower --digits 6 ${check:+--check} --route fits "$new/table.txt" >"$law" || { [ $? = 1 ] && failed=1; }
+  [ $failed = 0 ] || [ "$slope" != 0 ] || say 'if the runs rolled in both directions: --slope fit'
 fi
 cat "$law"
 if command -v gnuplot >/dev/null; then
@@ -126,7 +127,8 @@ if [ "$check" ]; then
     [ $column = v ] || fit -q --each --check "$scratch/checked" >/dev/null || failed=1
     [ -z "$m" ] || balance "$scratch/checked" >"$new/energy.txt" || failed=1
   fi
-  [ $failed = 1 ] || echo "passed: $runs runs" >&2
+  over=$((${#files[@]} - ${#used[@]}))
+  [ $failed = 1 ] || echo "passed: $runs runs$([ $over = 0 ] || echo ", files passed over: $over")" >&2
 fi
 
 replace=1
