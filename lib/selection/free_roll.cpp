@@ -51,6 +51,18 @@ void refuse_spikes(std::span<const Sample> run, double share) {
       spikes.found, spikes.among, spikes.first.y, spikes.first.t);
 }
 
+/// Refuses positions whose counter has started over.
+void refuse_start_over(std::span<const Sample> run) {
+  const auto over = start_over(run);
+  if (!over) return;
+  const Sample& before = run[*over - 1];
+  const Sample& after = run[*over];
+  fail<MotionError>(
+      "the positions jump from {:.6g} to {:.6g} at {:.12g} s, and the motion goes on: a counter "
+      "that starts over; add its range to all later rows",
+      before.y, after.y, after.t);
+}
+
 /// The rolls in the means of equal numbers of samples.
 std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions) {
   const std::size_t size = size_of_means(run.size());
@@ -141,12 +153,7 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
 void require_motion(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
   refuse_spikes(run, 0.12);
-  const auto over = positions ? start_over(run) : std::nullopt;
-  if (!over) return;
-  fail<MotionError>(
-      "the positions jump from {:.6g} to {:.6g} at {:.12g} s, and the motion goes on: a counter "
-      "that starts over; add its range to all later rows",
-      run[*over - 1].y, run[*over].y, run[*over].t);
+  if (positions) refuse_start_over(run);
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ class Piece {
   Value y(double t) const { return derivative(0, t); }
   Value v(double t) const { return derivative(speed_, t); }
   Value a(double t) const { return derivative(speed_ + 1, t); }
+  double rss() const { return fit_.rss(order); }
   double middle() const { return std::midpoint(from, to); }
   double duration() const { return to - from; }
   std::size_t size() const { return end - begin; }

@@ -113,12 +113,14 @@ double noise_of(std::span<const Sample> samples, bool positions, double step) {
       const auto near = samples.subspan(i, size);
       Polynomial<3> fit;
       for (const Sample& s : near) fit.add(s.t - near[0].t, s.y);
-      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3));
-      const double moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
+      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3)),
+                   moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
       all.push_back(own);
       if (own > 0.12 * moved) continue;  // a jump or rest
-      speeds.push_back(positions ? moved / (near.back().t - near[0].t) : moved);
-      found.push_back({speeds.back(), own / typical});
+      const bool coarse = positions && moved < 0.99 * step * static_cast<double>(size - 1);
+      found.push_back({positions ? moved / (near.back().t - near[0].t) : moved,
+                       std::max(own / typical, coarse ? 0.43 * step : 0)});
+      speeds.push_back(found.back().first);
     }
     // A quarter of all tells the noise of a run in which nothing moves.
     if (size == 4 && !all.empty())

@@ -12,7 +12,8 @@
 namespace rolling {
 
 /// The noise of samples while the body moves: the median scatter about the parabolas of few
-/// neighbours, at least that of rounding to a step.
+/// neighbours. Where a body moves by less than a step of rounded positions it is at least that of
+/// rounding.
 double noise_of(std::span<const Sample> samples, bool positions, double step);
 
 /// Of how many rows a program has made each reading by a mean, as the readings show; 1: of its own

@@ -85,7 +85,7 @@ class Search {
   struct Slowing {
     double v, deceleration;
   };
-  /// What a roll shows of its law.
+  /// What a roll shows of its law, ordered by the speeds.
   std::vector<Slowing> law_of(const Chain& c) const {
     std::vector<Slowing> law;
     for (std::size_t i = c.first; i <= c.last; ++i)
@@ -95,17 +95,25 @@ class Search {
         const double v = p.v(t).value;
         if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v)});
       }
+    std::ranges::sort(law, {}, &Slowing::v);
     return law;
   }
-  /// Whether a body that rolls under `law` slows down like `other`, within a factor of 1.5, where
-  /// both have nearly the same speed.
+  /// The deceleration at a speed; beyond the speeds that were seen, that at the nearest.
+  static double at(const std::vector<Slowing>& law, double v) {
+    const auto above = std::ranges::lower_bound(law, v, {}, &Slowing::v);
+    if (above == law.begin()) return above->deceleration;
+    const Slowing& below = *(above - 1);
+    if (above == law.end()) return below.deceleration;
+    const double part = (v - below.v) / (above->v - below.v);
+    return std::lerp(below.deceleration, above->deceleration, part);
+  }
+  /// Whether a body that rolls under `law` slows down like `other`, within a factor of 1.5.
   static bool are_alike(const std::vector<Slowing>& law, const std::vector<Slowing>& other) {
     double found = 0;
     double expected = 0;
     for (const Slowing& s : other) {
       found += s.deceleration;
-      const auto apart = [&](const Slowing& of) { return std::abs(of.v - s.v); };
-      expected += std::ranges::min_element(law, {}, apart)->deceleration;
+      expected += at(law, s.v);
     }
     return found > expected / 1.5 && found < 1.5 * expected;
   }
@@ -130,6 +138,9 @@ class Search {
       most = worth;
       best = alike;
     }
+    double fastest = 0;
+    for (const Chain& c : best) fastest = std::max(fastest, c.fastest);
+    std::erase_if(best, [&](const Chain& c) { return c.fastest < 0.2 * fastest; });
     return best;
   }
 
@@ -139,6 +150,8 @@ class Search {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& p = pieces_[i];
+      const auto a = p.a(p.middle());
+      if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
       else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
     }
@@ -151,8 +164,9 @@ class Search {
       c.fastest = std::max(std::abs(v0), std::abs(v1));
       c.lost = std::abs(v0 - v1) / c.fastest;
     }
-    std::erase_if(chains,
-                  [&](const Chain& c) { return !stands_out(pieces_[c.first], pieces_[c.last]); });
+    std::erase_if(chains, [&](const Chain& c) {
+      return c.fastest < 0.05 * fastest_ || !stands_out(pieces_[c.first], pieces_[c.last]);
+    });
     return chains;
   }
 
@@ -185,6 +199,7 @@ class Search {
 
   /// Whether the motion of a goes on in b under one law, whatever lies between.
   bool continues(const Piece& a, const Piece& b) const {
+    if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
     const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
@@ -199,6 +214,8 @@ class Search {
     if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.error)) return false;
     if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
     if (turns) return ratio < 1.2;  // D is against the motion on both ways
+    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to);
     const auto eb = b.a(b.from);
     const double larger = std::max(std::abs(ea.value), std::abs(eb.value));
@@ -211,12 +228,16 @@ class Search {
   /// Whether the body may be at rest at the end.
   bool is_slow(const Chain& c) const {
     const Piece& last = pieces_[c.last];
-    return std::abs(last.v(last.to).value) < slow * c.fastest;
+    const auto v = last.v(last.to);
+    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest);
   }
 
   FreeRoll::End end_of(const Chain& c) const {
     const Piece& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
+    const auto back = last.v(last.middle());
+    if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
+      return FreeRoll::End::is_ended;
     return is_slow(c) ? FreeRoll::End::by_itself : FreeRoll::End::is_ended;
   }
 
@@ -265,7 +286,8 @@ class Search {
       s.end = last.begin + joints_.inner(cost, last.size(), last.size() / 3, -1);
       s.end = std::min(s.end, last.begin + joints_.agreeing(last.begin, last.end - 1));
     }
-    if (how != FreeRoll::End::is_ended && is_slow(c)) how = slow_end(c, how, sudden, s);
+    if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest)
+      how = slow_end(c, how, sudden, s);
     if (how == FreeRoll::End::is_ended) {
       const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
       while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
@@ -301,9 +323,12 @@ class Search {
     // A hand that slows a slow body by hardly more than D may seem to be the last piece, or of it.
     const std::size_t before = std::max(c.first + 1, c.last) - 1;
     const std::size_t begin = std::max(s.begin, pieces_[before].begin);
+    double any = five_sigma;  // RSS of what agrees with the readings as well as the pieces do
+    for (const Piece& p : std::span(pieces_).subspan(before))
+      if (p.end <= end) any += p.rss();
     const double by_itself = joints_.before_stop(begin, last.end, end).rss;
     const auto [hand, by_hand] = joints_.before_hand(begin, last.end, end);
-    if (by_hand > by_itself - rather) return how;
+    if (by_hand > any || by_hand > by_itself - rather) return how;
     s.end = std::min(s.end, hand);
     return by_hand > by_itself - five_sigma ? how : FreeRoll::End::is_ended;
   }
