@@ -54,7 +54,12 @@ awk -F '\t' '
 [ "$(grep -c '^f[012]\|^slope' table)" = 4 ] || complain "not all of them: $(cat table)"
 awk -F '\t' '/^# v/ { pairs = 1; next }
   pairs { rows++; F = 150 + 0.8 * $1 + 0.030864198 * ($1^2 + 25 / 3); if ((($4 - F) / F)^2 > 0.01^2 || $3 > 5) print }
-  END { if (rows < 10) print rows + 0 " pairs" }' table | grep . && wrong=1
+  END { if (rows < 7) print rows + 0 " pairs" }' table | grep . && wrong=1
+# No pair is below the speeds that all runs have, and none is missing above them.
+slowest=$(tail -q -n 1 out[1-3] back[1-3] | cut -d , -f 2 | sort -g | tail -n 1)
+tail -n 1 table | awk -v slowest="$slowest" '{ exit !($1 - 5 >= slowest && $1 - 15 < slowest) }' ||
+  complain "the last pair, with $slowest km/h at the end: $(tail -n 1 table)"
+load -m 1512 --rotating 60.48 out[1-3] --back back[1-3] | cmp - table || complain '--back before all files is another load'
 
 # A run is named by its file alone: rounded speeds cause a warning that names it.
 awk -F , 'NR == 1 { print; next } { printf "%s,%.0f\n", $1, $2 }' out1 >coarse
