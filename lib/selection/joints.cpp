@@ -83,8 +83,8 @@ double Joints::rss_of_stop(std::size_t begin, std::size_t joint, double stop,
   for (std::size_t i = begin; i < end; ++i) {
     const double u = i < joint ? samples_[i].t - stop : 0;
     row = {1, positions_ ? u * u : u};
-    for (std::size_t k = 2; k <= most_; ++k) row[k] = row[k - 1] * u;
-    if (positions_) row[4] = i >= joint;
+    for (std::size_t k = 2; k < 4; ++k) row[k] = row[k - 1] * u;
+    row[4] = positions_ && i >= joint;
     fit.add(row, samples_[i].y / noise_);
   }
   return fit.rss();
