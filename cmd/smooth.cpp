@@ -88,8 +88,8 @@ class Told {
     if (rolls_ == 1) tool_.warn(one_);
     if (rolls_ > 1)
       tool_.warn(
-          fmt::format("{} {} of {} rows in {} of {}: {} rolled to rest, something "
-                      "stopped {}, the run ends before {}",
+          fmt::format("{} {} of {} rows in {} of {}: {} rolled to rest, {} were stopped, {} "
+                      "still rolled at the end of the run",
                       keeps_, kept_, rows_, counted(rolls_, "roll"), counted(runs_, "run"),
                       ends_[0], ends_[1], ends_[2]));
   }

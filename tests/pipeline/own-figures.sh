@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The figures of runs of somebody's own: each draws that run, as the tools see it, passes on what they
-# say, and refuses in one line what it cannot use.
+# say, and refuses in one line what it cannot use. What all figures share is asked of some in turn, of
+# each with LONG=1.
 set -eu
 export LC_ALL=C
 unset CDPATH
@@ -11,6 +12,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wrong=0
 complain() { echo "$*"; wrong=1; }
+turn=0
+in_turn() { turn=$((turn + 1)); [ $((turn % $1)) = 0 ] || [ -n "${LONG:-}" ]; }  # one of so many
 for figure in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn residuals; do
   samples/figures/$figure.sh >"$scratch/$figure.svg" || complain "$figure: $?"
 done
@@ -28,6 +31,7 @@ awk '/^#/ { print; next } { print $1 "\t" (-$2) }' "$scratch/own" >"$scratch/own
 for figure in fig2 fig3 fig5; do
   for run in own own-mirrored; do
     for at in 0.1 0.5; do
+      in_turn 3 || continue
       # shellcheck disable=SC2086  # words
       samples/figures/$figure.sh $body --at $at "$scratch/$run" >"$scratch/one.svg" 2>"$scratch/said" || complain "$figure of $run: $?"
       samples/figures/$figure.sh --at $at >"$scratch/scene.svg"
@@ -61,11 +65,13 @@ for figure in fig1 fig1-stop fig2 fig3 fig4 fig5 energy residuals; do
   cmp -s "$scratch/law.svg" "$scratch/$figure.svg" && complain "$figure --law changes nothing"
   # What rolled is not guessed, and is nothing for the samples; a radius in millimetres is told.
   for wrong_one in '-K 0.5' '-R 0.04' '-m 1.375' '--run 1' '-c x' '--law d0'; do
+    in_turn 5 || continue
     # shellcheck disable=SC2086
     said=$(samples/figures/$figure.sh $wrong_one 2>&1) && complain "$figure $wrong_one: the samples"
     [ "$said" = "$figure.sh: -${wrong_one#-}" ] || [ "$said" = "$figure.sh: ${wrong_one% *} is for a run of your own: name its FILE" ] ||
       complain "$figure $wrong_one: $said"
   done
+  in_turn 4 || continue
   samples/figures/$figure.sh -K 0.5 -R 40 -m 1.375 samples/CR.csv 2>&1 >/dev/null | grep -q 'if that is millimetres, write 0.04' ||
     complain "$figure -R 40 is not told"
 done
@@ -195,7 +201,7 @@ for i in {1..17}; do
   names+=("$scratch/a solid cylinder on the second rubber mat, try no. $((i + 10)).csv")
   cp "$scratch/CR.csv" "${names[-1]}"
 done
-for n in 1 4 5 9 16 17; do
+for n in 1 5 17 ${LONG:+4 9 16}; do
   samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n runs"
   [ "$(grep -oE '<title>(a[^<]*…|…[12][0-9](:|<))' "$scratch/names.svg" | sort -u | grep -c .)" = $((n > 16 ? 16 : n)) ] ||
     complain "fig4 of $n runs: $(grep -o '<title>.*' "$scratch/names.svg")"

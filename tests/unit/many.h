@@ -11,6 +11,15 @@
 /// How many of `all` cases are taken.
 inline unsigned of_many(unsigned all) { return std::getenv("LONG") ? all : all / 5; }
 
+/// Of cases that loops make, whether this one is taken: one of five, in turn.
+class InTurn {
+ public:
+  bool operator()() { return n_++ % 5 == 0 || std::getenv("LONG"); }
+
+ private:
+  unsigned n_ = 0;
+};
+
 /// Of n cases, each of this probability, no more are counted but by chance in one test of 500.
 inline unsigned at_most(unsigned n, double probability) {
   unsigned most = 0;

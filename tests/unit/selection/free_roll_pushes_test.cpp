@@ -10,6 +10,7 @@
 #include "unit/catch.h"
 #include "unit/normal.h"
 #include "unit/signal/through.h"
+#include "unit/many.h"
 
 using namespace rolling;
 
@@ -147,6 +148,7 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
   constexpr double noises[][2] = {{3e-4, 0}, {5e-4, 0}, {1e-3, 0}, {3e-4, 1e-3}, {1e-3, 1e-3}};
   constexpr double laws[][2] = {{0.215, 2.5}, {0.0244, 6}, {0.255, 3.4}, {0.5, 5}};
   unsigned seed = 7000;
+  InTurn in_turn;
   int told_of_good = 0, good = 0;
   for (Made& made : kinds) {
     int runs = 0, right = 0, told = 0;
@@ -154,9 +156,11 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
       for (const auto& [b, roll] : laws)
         for (const bool positions : {true, false})
           for (const double rate : {25.0, 50.0}) {
+            ++seed;
+            if (!in_turn()) continue;
             made.b = b, made.roll = roll, made.rate = rate, made.positions = positions;
             made.noise = noise, made.resolution = resolution;
-            made.make(++seed);
+            made.make(seed);
             ++runs;
             const bool usual = made.hold + made.again == 0 && noise <= 5e-4 && resolution <= 1e-3;
             good += usual;
@@ -181,19 +185,22 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
 // A reading then stays the same for many runs, so that its rounding errors follow each other.
 TEST_CASE("free_roll: fast sensors whose noise is below their resolution", "[signal][many]") {
   unsigned seed = 1;
+  InTurn in_turn;
   for (const double rate : {1000.0, 5000.0})
     for (const double resolution : {1e-3, 1e-4})
       for (const double noise : {0.0, 3e-5})
         for (const auto& [b, roll] :
              {std::pair{0.0244, 10.0}, {0.0244, 6.8}, {0.215, 2.4}, {0.255, 3.4}})
           for (const bool positions : {true, false}) {
+            ++seed;
+            if (!in_turn()) continue;
             Made made{.b = b,
                       .roll = roll,
                       .rate = rate,
                       .noise = noise,
                       .resolution = resolution,
                       .positions = positions};
-            made.make(++seed);
+            made.make(seed);
             const Stretch kept = free_roll(made.run, positions).kept;
             INFO("rate " << rate << " resolution " << resolution << " noise " << noise << " b " << b
                          << " positions " << positions << ": from "
