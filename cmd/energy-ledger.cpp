@@ -161,12 +161,13 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
   bool tests_nothing = false;
   bool without_closure = false;
   while (pipe ? pipe->next_run() : in.next_run()) {
+    const std::string run = in.run_name();
     if (task.law_of_scene && in.find("D"))
       fail<InputError>(
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "
           "or give the runs one by one",
-          in.run_name());
-    const LawOfFile& law = law_of(task.laws, in.run_name());
+          run);
+    const LawOfFile& law = law_of(task.laws, run);
     const auto [body, geometry] =
         task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
