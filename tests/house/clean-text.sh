@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Nothing is half there: a case runs its tool, a file of lib/ that computes has its
-# unit test, a test is run.
+# unit test, a test is run, a file that a comment names is there.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -43,4 +43,8 @@ if grep -rnE '^(<<<<<<<|>>>>>>>)( |$)' Makefile README.md cmd lib tests samples 
 for script in tests/*.sh tests/*/*.sh; do
   [ -x "$script" ] || complain "$script cannot be run"
 done
+# What `make results` writes is not in every checkout.
+while IFS= read -r file; do
+  [ -e "$file" ] || [ "$file" = tests/results.txt ] || complain "a comment names $file, which is not there"
+done < <(grep -rhoE '\b(tests|samples|cmd|lib)/[a-z_/-]+\.(cpp|h|sh|txt|py|cases|awk)\b' lib cmd/*.cpp tests/unit tests/bench Makefile tests/targets.mk | sort -u)
 exit $wrong
