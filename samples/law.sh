@@ -11,16 +11,10 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
-from='' to='' N=50
-while getopts f:t:n: option; do
-  case $option in
-    f) from=$OPTARG ;;
-    t) to=$OPTARG ;;
-    n) N=$OPTARG ;;
-    *) exit 2 ;;
-  esac
-done
-shift $((OPTIND - 1))
+n=50
+options '-f -t -n' "$@"
+from=$f to=$t N=$n
+set -- ${operands[@]+"${operands[@]}"}
 [ $# -le 1 ] || wrong "one file, not $#"
 is_count "$N" && [ "$N" -ge 2 ] || wrong "-n $N: a whole number, 2 or more"
 for limit in "$from" "$to"; do

@@ -27,32 +27,13 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
-m='' rotating='' slope='' wind='' T='' p='' standard=gtr15 TM='' measured=0 svg='' law='d0+d1*v+d2*v^2' way=out
-road=() use=() out=() back=()
-while [ $# -gt 0 ]; do
-  case $1 in
-    --no-f1) law='d0+d2*v^2'; shift; continue ;;
-    --back) way=back; shift; continue ;;
-    -?*) [ $# -gt 1 ] || wrong "$1 needs a value" ;;
-    *) [ "$way" = out ] && out+=("$1") || back+=("$1"); shift; continue ;;
-  esac
-  case $1 in
-    -m) m=$2 ;;
-    --rotating) rotating=$2 ;;
-    --slope) slope=$2 ;;
-    --height | --x0) road+=("$1" "$2") ;;
-    --wind) wind=$2 ;;
-    --column) use+=(--use "$2") ;;
-    -T) T=$2 ;;
-    -p) p=$2 ;;
-    --standard) standard=$2 ;;
-    --test-mass) TM=$2 ;;
-    --anemometer) measured=$2 ;;
-    -o) svg=$2 ;;
-    *) wrong "$1 is no option; road-load.sh --help lists them" ;;
-  esac
-  shift 2
-done
+standard=gtr15 anemometer=0 law='d0+d1*v+d2*v^2'
+options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column... -T -p --standard --test-mass
+  --anemometer -o' "$@"
+[ -z "$no_f1" ] || law='d0+d2*v^2'
+[ ${#operands[@]} -gt 0 ] || wrong 'there is no run'
+out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
+TM=$test_mass measured=$anemometer svg=$o road=(${height:+--height "$height"} ${x0:+--x0 "$x0"})
 [ ${#out[@]} -gt 0 ] || wrong 'there is no run'
 [ "$m" ] && [ "$rotating" ] || wrong 'say the masses: -m 1500 --rotating 60'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
@@ -72,7 +53,7 @@ number=0
 coast() {  # FILE WAY
   number=$((number + 1))
   printf '## run %s\n' "$(printf %s "${1##*/}" | tr '[:cntrl:]' '?')"
-  smooth --coast -c v ${use[@]+"${use[@]}"} -- "$1" | awk -F '\t' -v way="$2" '
+  smooth --coast -c v ${column[@]+"${column[@]/#/--use=}"} -- "$1" | awk -F '\t' -v way="$2" '
     /^## run / { next }
     /^##/ { print; next }
     /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) { if ($i ~ /^t\[/) t = i; if ($i ~ /^v\[/) v = i }

@@ -13,16 +13,10 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
-K='' R='' width=0.08
-while getopts K:R:w: option; do
-  case $option in
-    K) K=$OPTARG ;;
-    R) R=$OPTARG ;;
-    w) width=$OPTARG ;;
-    *) exit 2 ;;
-  esac
-done
-shift $((OPTIND - 1))
+w=0.08
+options '-K -R -w' "$@"
+width=$w
+set -- ${operands[@]+"${operands[@]}"}
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 is_number "$width" || wrong "-w $width: a number of seconds"
 [ $# = 1 ] || wrong "one file, not $#"

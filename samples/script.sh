@@ -13,6 +13,44 @@ case ${1-} in -h | --help) help; exit ;; esac
 PATH=$(cd "$(dirname "$0")" && while [ ! -e script.sh ]; do cd ..; done && cd .. && pwd)/bin:$PATH
 
 wrong() { printf '%s: %s\n' "${0##*/}" "$1" >&2; exit 2; }
+# options LIST ARGUMENT...: reads the options of a script, which bash runs. Of LIST, -K takes a value, and
+# K becomes it; --use... takes one each time that it is given, and use becomes a list; --check! takes none,
+# and check becomes the number of operands before it. A variable that has a value already keeps it as its
+# default.
+# The operands become the list operands. -K0.5 and --slope=0.1 are as -K 0.5 and --slope 0.1.
+options() {
+  # shellcheck disable=SC2086  # words
+  known=" $(printf '%s ' $1)" chosen=''
+  shift
+  eval 'operands=()'
+  for option in $known; do
+    variable "$option"
+    case $option in *...) eval "$name=()" ;; *) eval "$name=\${$name-}" ;; esac
+  done
+  while [ $# -gt 0 ]; do
+    option=$1
+    shift
+    case $option in
+      --) eval 'operands+=("$@")'; return ;;
+      -h | --help) help; exit ;;
+      --*=*) set -- "${option#*=}" "$@" && option=${option%%=*} ;;
+      -[!-]?*) set -- "${option#-?}" "$@" && option=${option%"${option#-?}"} ;;
+      -?*) ;;
+      *) eval 'operands+=("$option")'; continue ;;
+    esac
+    variable "$option"
+    case $known in
+      *" $option! "*) eval "$name=\${$name:-\${#operands[@]}}" && continue ;;
+      *" $option "*) [ -z "${1-}" ] || eval "$name=\$1" ;;
+      *" $option... "*) [ -z "${1-}" ] || eval "$name+=(\"\$1\")" ;;
+      *) wrong "$option is no option; ${0##*/} --help lists them" ;;
+    esac
+    [ "${1-}" ] || wrong "$option needs a value"
+    chosen="$chosen $option"
+    shift
+  done
+}
+variable() { name=$(printf '%s\n' "$1" | sed 's/^-*//; s/[!.]*$//; s/-/_/g'); }
 is_count() { case $1 in '' | *[!0-9]* | ?????????*) false ;; esac; }
 is_number() { printf '%s\n' "$1" | grep -qxE '[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?'; }
 # KEY of a scene: its value, and that with its standard uncertainty: 0.5+-0.005.

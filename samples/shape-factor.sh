@@ -24,28 +24,16 @@ unset CDPATH
 here=$(cd "$(dirname "$0")" && pwd)
 # What was measured on the body of the runs that are made here.
 made='-m 1.375+-0.001 -R 0.0400+-0.00005 -r 0.0100+-0.00002 -w 0.0500+-0.00005'
-# shellcheck disable=SC2034  # numbers() takes them by their names
-m='' R='' r='' w='' g=9.81
-# shellcheck disable=SC2034
-measured() {  # OPTION...
-  local option value
-  OPTIND=1
-  while getopts m:R:r:w:g: option; do
-    [ "$option" != '?' ] || exit 2  # getopts has said why
-    for value in "${OPTARG%%+-*}" "${OPTARG#*+-}"; do
-      is_number "${value:-x}" || wrong "-$option $OPTARG: a number, or one like 1.375+-0.001"
-    done
-    case $option in
-      m) m=$OPTARG ;;
-      R) R=$OPTARG ;;
-      r) r=$OPTARG ;;
-      w) w=$OPTARG ;;
-      *) g=$OPTARG ;;
-    esac
+# shellcheck disable=SC2034  # numbers() takes it by its name
+g=9.81
+options '-m -R -r -w -g' "$@"
+set -- ${operands[@]+"${operands[@]}"}
+for option in $chosen; do
+  given=${option#-}
+  for number in "${!given%%+-*}" "${!given#*+-}"; do
+    is_number "${number:-x}" || wrong "$option ${!given}: a number, or one like 1.375+-0.001"
   done
-}
-measured "$@"
-shift $((OPTIND - 1))
+done
 
 # The run as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
 # circle of 1 m. A film of the fall run backwards slows down.
@@ -165,7 +153,7 @@ make_runs() {  # FOLDER SEED
 case $#:${1-} in
   3:make)
     # shellcheck disable=SC2086  # options
-    measured $made
+    options '-m -R -r -w -g' $made
     [ -d "$2" ] || wrong "$2 is no folder"
     is_count "$3" || wrong "SEED is a whole number, not $3"
     make_scratch
@@ -178,7 +166,7 @@ case $#:${1-} in
     ;;
   0:)
     # shellcheck disable=SC2086
-    measured $made
+    options '-m -R -r -w -g' $made
     make_scratch
     make_runs "$scratch" 1
     echo "Shape factors from made runs, and the law of the rubber mat with them"

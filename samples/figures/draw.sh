@@ -16,43 +16,13 @@ also=${BASH_SOURCE[0]}
 figures=$(cd "$(dirname "$also")" && pwd)
 samples=${figures%/*}
 . "$samples/script.sh"
-# A script that sources this has said in `takes` which of --slope, --seconds, --at and --by it has too,
-# and in `needs` what has to be said of a body. Its operands are in `files`.
-form=svg K='' R='' m='' slope=${slope-0} at='' column='' law=() use=() run=() of_own='' count=1
+# A script that sources this has said in `takes` which options it has too, and in
+# `needs` what has to be said of a body. Its operands are in `files`.
+t=svg slope=${slope-0} at='' count=1
 default_slope=$slope
-while getopts t:K:R:m:c:-: option; do
-  if [ "$option" = - ]; then  # --slope S, or --slope=S
-    option=-${OPTARG%%=*}
-    case $OPTARG in
-      *=*) OPTARG=${OPTARG#*=} ;;
-      *) OPTARG=${!OPTIND-} OPTIND=$((OPTIND + 1)) ;;
-    esac
-    case " use run law ${takes-} " in
-      *" ${option#-} "*) [ "$OPTARG" ] || wrong "-$option needs a value" ;;
-      *) wrong "-$option is no option of this figure; --help lists them" ;;
-    esac
-  fi
-  case $option in
-    t) form=$OPTARG ;;
-    -at) at=$OPTARG ;;
-    '?') exit 2 ;;  # getopts has said why
-    *) of_own=-$option ;;
-  esac
-  case $option in
-    K) K=$OPTARG ;;
-    R) R=$OPTARG ;;
-    m) m=$OPTARG ;;
-    c) column=$OPTARG ;;
-    -slope) slope=$OPTARG ;;
-    -by) by=$OPTARG ;;
-    -seconds) seconds=$OPTARG ;;
-    -use) use+=(--use "$OPTARG") ;;
-    -run) run=(--run "$OPTARG") ;;
-    -law) law=(--law "$OPTARG") ;;
-  esac
-done
-shift $((OPTIND - 1))
-files=("$@") own=$#
+options "-t -K -R -m -c --use... --run --law ${takes-}" "$@"
+files=(${operands[@]+"${operands[@]}"}) own=${#operands[@]} form=$t column=$c
+of_own=$(printf '%s\n' $chosen | grep -vxe -t -e --at | tail -n 1) || true
 case $form in svg | png | pdf) ;; *) wrong "-t $form: svg, png or pdf" ;; esac
 case $column in '' | x | v) ;; *) wrong "-c $column: x or v" ;; esac
 is_number "$slope" || [ "$slope" = "$default_slope" ] ||
@@ -62,7 +32,6 @@ is_number "$slope" || [ "$slope" = "$default_slope" ] ||
 command -v gnuplot >/dev/null || wrong 'gnuplot is not installed; make setup figures installs it'
 make_scratch
 cp "$figures"/*.gp "${scratch:?}"
-
 
 # prepare SAMPLE...: reads the FILEs, or these samples, and goes to the folder of this run. There
 # `readings` has the runs, roll1 the free roll of the first, and so on up to roll$count, and `names`
@@ -129,7 +98,7 @@ separate() {
   awk -v name="$2" 'BEGIN { file = name (n = 1) } /^$/ { close(file); file = name (++n); next } { print >file }' "$1"
 }
 take() {
-  smooth ${quiet:+-q} -w 1 -c "$1" ${use[@]+"${use[@]}"} ${run[@]+"${run[@]}"} -- "${files[@]}" \
+  smooth ${quiet:+-q} -w 1 -c "$1" ${use[@]+"${use[@]/#/--use=}"} ${run:+--run "$run"} -- "${files[@]}" \
     2>"$scratch/said"
 }
 one_run() { [ "$count" = 1 ] || wrong "this figure is of one run, not of $count: choose it with --run"; }
@@ -141,7 +110,7 @@ body() {
 }
 # fit FILE: the law of each run in it as fit1, fit2 and so on.
 fit() {
-  fitpower ${quiet:+-q} --each -K "$K" -R "$R" "--slope=$slope" ${law[@]+"${law[@]}"} "$@" >fits
+  fitpower ${quiet:+-q} --each -K "$K" -R "$R" "--slope=$slope" ${law:+--law "$law"} "$@" >fits
   awk '/^##/ { next } /^#/ { names = $0; next } { file = "fit" (++n); print names "\n" $0 >file; close(file) }' fits
 }
 # The energies of one run: `measured`, by velocities that are the slopes of parabolas, and `fitted`, with
@@ -153,9 +122,9 @@ balance() {
   if [ $column = x ]; then differentiate -q -c x -M savgol -w "$(window "$seconds" roll1 3)" roll1
   else smooth -q -c v -M savgol -w "$(window "$seconds" roll1 3)" roll1; fi >moving
   simulate ${quiet:+-q} --law fit1 "${body[@]}" --at roll1 --columns t,v >rolling
-  for run in moving:measured rolling:fitted; do
-    energy-ledger ${quiet:+-q} -m "$m" --law fit1 "${body[@]}" --columns E_trans,E_rot,E_diss,W_g "${run%:*}" |
-      columns - t E_trans E_rot E_diss W_g v >"${run#*:}"
+  for motion in moving:measured rolling:fitted; do
+    energy-ledger ${quiet:+-q} -m "$m" --law fit1 "${body[@]}" --columns E_trans,E_rot,E_diss,W_g "${motion%:*}" |
+      columns - t E_trans E_rot E_diss W_g v >"${motion#*:}"
   done
   start=$(columns roll1 t | sed -n 1p) parts=4
   [ "$slope" != 0 ] || parts=3

@@ -7,7 +7,7 @@
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
 #   --seconds S        width of the window in which a parabola tells the velocity (0.84)
-takes='slope seconds' seconds=0.84 needs='-K 0.5 -R 0.04 -m 1.375'
+takes='--slope --seconds' seconds=0.84 needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 prepare CR
 balance

@@ -21,7 +21,7 @@ differentiate -q -c x readings >moving && columns moving t x v >raw
 "$samples/roll-back.sh" -K "$K" -R "$R" readings >back 2>said || { cat said >&2 && exit 2; }
 memory=0.5 damping=0.02 of_memory='0.5 mm (given, not fitted)'
 if [ "$own" -gt 0 ]; then  # a memory is one of a v^b
-  memory=$([ ${#law[@]} -gt 0 ] || sed -n 's/.* memory of \([0-9.]*\) .*/\1/p' back) damping=0 of_memory="$memory mm"
+  memory=$([ "$law" ] || sed -n 's/.* memory of \([0-9.]*\) .*/\1/p' back) damping=0 of_memory="$memory mm"
 fi
 cp law memory  # for gnuplot, which looks for it where it is not drawn, too
 [ -z "$memory" ] || roll --until "$end" --dt 0.005 --memory "${memory}e-3" --damping "$damping" >memory

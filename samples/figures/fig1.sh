@@ -7,7 +7,7 @@
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
 #   --seconds S        width of the window (0.44)
-takes='slope seconds' seconds=0.44
+takes='--slope --seconds' seconds=0.44
 . "$(dirname "$0")/draw.sh"
 prepare CR SR CF SF
 fit --route $route rolls

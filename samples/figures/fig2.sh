@@ -8,7 +8,7 @@
 #   fig2.sh [OPTION]... [FILE] >fig2.svg      the cylinder on rubber, or a run of your own
 #
 #   --at T             the instant [s]; without it the beginning of the free roll
-takes=at needs='-K 0.5 -R 0.04 -m 1.375'
+takes=--at needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 instant 0 F_N,F_H,F_S,F_G,tau_N,tau_H,p,L
 title='Fig. 2: the forces on a rolling body, to scale'

@@ -7,7 +7,7 @@
 #   fig3.sh [OPTION]... [FILE] >fig3.svg      the cylinder on rubber, or a run of your own
 #
 #   --at T             the instant [s]; without it the beginning of the free roll
-takes='at'
+takes=--at
 . "$(dirname "$0")/draw.sh"
 instant 0 vP_H,vP_V
 title='Fig. 3: the velocity of P as a point of the body, to scale'

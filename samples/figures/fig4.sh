@@ -8,7 +8,7 @@
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0); a roll that turns needs it
 #   --seconds S        width of the window over which velocities are smoothed (0.44)
-takes='slope seconds' seconds=0.44
+takes='--slope --seconds' seconds=0.44
 . "$(dirname "$0")/draw.sh"
 prepare CR SR CF SF
 
@@ -62,7 +62,7 @@ bars=0
   if [ "$own" -gt 0 ]; then
     printf 'K = %s, R = %s m' "${K//+-/ ± }" "${R//+-/ ± }"
     [ "$slope" = 0 ] || printf ', slope %s' "$slope"
-    [ "${#law[@]}" -gt 0 ] || [ "$count" -gt 4 ] || printf '; a is D at 1 m/s'
+    [ "$law" ] || [ "$count" -gt 4 ] || printf '; a is D at 1 m/s'
     [ "$count" -le 16 ] || printf '; the key names the first 16 of %s runs' "$count"
     echo
   fi

@@ -9,7 +9,7 @@
 #   fig5.sh [OPTION]... FILE >fig5.svg        a run of your own
 #
 #   --at T             the instant [s]; of a run of your own without it the beginning of the free roll
-takes=at needs='-K 0.5 -R 0.04 -m 1.375'
+takes=--at needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 if [ "$own" = 1 ] && [ -z "$of_own" ]; then
   own=0 at=${files[0]} files=()

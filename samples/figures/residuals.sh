@@ -11,7 +11,7 @@
 #   --slope S          rise of the mat in metres a metre along growing x (0)
 #   --by N             what the law of run number N foretells of the others, in place of their own laws,
 #                      with its 95 % limits; v0 and x0 are those of each run
-takes='slope by' by=''
+takes='--slope --by' by=''
 . "$(dirname "$0")/draw.sh"
 prepare CR
 fit --route $route rolls
@@ -21,11 +21,11 @@ separate readings readings
 : >outliers
 [ -z "$by" ] || { is_count "$by" && [ "$by" -ge 1 ] && [ "$by" -le "$count" ]; } ||
   wrong "--by $by: a run from 1 to $count"
-[ -z "$by" ] || [ ${#law[@]} = 0 ] || wrong '--by is for the law a v^b'
+[ -z "$by" ] || [ -z "$law" ] || wrong '--by is for the law a v^b'
 for i in $(seq "$count"); do
   body "$i"
   # The roll of the row, from its t0, v0 and x0 on, at the times of the run.
-  roll=(--law "fit$i" --columns x,v) sigma=()
+  roll=(--law "fit$i" --columns "x,v") sigma=()
   if [ "$by" ]; then
     fitpower -q "${body[@]}" --route $route --fix a="$(columns "fit$by" a)" --fix b="$(columns "fit$by" b)" "roll$i" >own
     roll=(--law "fit$by" --columns "x,v,sigma_$column" --t0 "$(columns own t0)" --v0 "$(columns own v0)")

@@ -9,7 +9,7 @@
 #
 #   --slope S          rise of the mat in metres a metre along growing x (fit: found by the fit)
 #   --seconds S        width of the window in which a parabola tells the velocity (0.84)
-takes='slope seconds' seconds=0.84 slope=fit needs='-K 0.4 -R 0.0127 -m 0.067'
+takes='--slope --seconds' seconds=0.84 slope=fit needs='-K 0.4 -R 0.0127 -m 0.067'
 . "$(dirname "$0")/draw.sh"
 if [ "$own" = 0 ]; then
   K=0.4 R=0.0127 m=0.067 files=("$scratch/ball")

@@ -20,27 +20,9 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/../script.sh"
-K='' R='' m='' column=x slope=0 results=results check='' use=() accepted=()
-while [ $# -gt 0 ]; do
-  case $1 in
-    --check) check=1; shift; continue ;;
-    --) shift; break ;;
-    -?*) [ $# -gt 1 ] || wrong "$1 needs a value" ;;
-    *) break ;;
-  esac
-  case $1 in
-    -K) K=$2 ;;
-    -R) R=$2 ;;
-    -m) m=$2 ;;
-    -c) column=$2 ;;
-    --slope) slope=$2 ;;
-    --use) use+=(--use "$2") ;;
-    --accept) accepted+=("$2") ;;
-    -o) results=$2 ;;
-    *) wrong "$1 is no option; lab.sh --help lists them" ;;
-  esac
-  shift 2
-done
+c=x slope=0 o=results
+options '-K -R -m -c --slope --use... -o --check! --accept...' "$@"
+column=$c results=$o
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 case $column in
   x) route=position ;;
@@ -53,7 +35,7 @@ say() { printf 'lab.sh: %s\n' "$*" >&2; }
 make_scratch
 
 files=()
-for operand; do
+for operand in ${operands[@]+"${operands[@]}"}; do
   [ -d "$operand" ] || { files+=("$operand") && continue; }
   for file in "$operand"/*; do
     case $file in
@@ -62,7 +44,7 @@ for operand; do
     esac
   done
 done
-roll() { smooth --coast -c $column ${use[@]+"${use[@]}"} -- "$@"; }
+roll() { smooth --coast -c $column ${use[@]+"${use[@]/#/--use=}"} -- "$@"; }
 used=(${files[@]+"${files[@]}"})
 if [ ${#used[@]} -gt 0 ] && roll "${used[@]}" >"$scratch/rolls" 2>"$scratch/said"; then
   cat "$scratch/said" >&2
@@ -115,7 +97,7 @@ fi
 if [ "$check" ]; then
   # The runs that are checked by themselves; their numbers; and what K, R and m say of them.
   : >"$scratch/kept"
-  printf '## run %s\n' '' ${accepted[@]+"${accepted[@]}"} >"$scratch/accepted"
+  printf '## run %s\n' '' ${accept[@]+"${accept[@]}"} >"$scratch/accepted"
   awk -F '\n' -v kept="$scratch/kept" 'NR == FNR { accepted[$0]; next }
     !($1 in accepted) { print; printf "%d\n", FNR >kept }' "$scratch/accepted" RS= ORS='\n\n' "$new/rolls" >"$scratch/checked"
   of_kept() {

@@ -10,18 +10,10 @@ set -euo pipefail
 export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/../script.sh"
-K='' R='' width=11 column=v terminal=''
-while getopts K:R:w:c:T: option; do
-  case $option in
-    K) K=$OPTARG ;;
-    R) R=$OPTARG ;;
-    w) width=$OPTARG ;;
-    c) column=$OPTARG ;;
-    T) terminal=$OPTARG ;;
-    *) exit 2 ;;
-  esac
-done
-shift $((OPTIND - 1))
+w=11 c=v
+options '-K -R -w -c -T' "$@"
+width=$w column=$c terminal=$T
+set -- ${operands[@]+"${operands[@]}"}
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 [ $# = 1 ] || wrong 'say one source: a device, a file that grows, or -'
 [ "$1" = - ] || [ -r "$1" ] || wrong "$1: there is no such device or file that can be read"

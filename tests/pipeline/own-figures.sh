@@ -84,7 +84,7 @@ refused() {  # MESSAGE FIGURE OPERAND...: in one line, with status 2 and no pict
 }
 refused 'abc is not a time in seconds; for a run of your own: -K 0.5 -R 0.04 -m 1.375' fig5 abc
 refused 'at t = 99 s the body is at rest' fig5 99
-refused '--slope is no option of this figure; --help lists them' fig2 --slope 0.1
+refused '--slope is no option; fig2.sh --help lists them' fig2 --slope 0.1
 refused 'say what rolled: -K 0.5 -R 0.04 -m 1.375' fig2 -K 0.5 -R 0.04 samples/CR.csv
 refused 'say what rolled: -K 0.5 -R 0.04' fig1 samples/CR.csv
 refused '-t pngx: svg, png or pdf' fig1 -t pngx
