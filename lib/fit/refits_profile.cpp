@@ -122,6 +122,7 @@ class Profile {
   System held(double value) const {
     System system = fit_.system();
     ++system.runs.front();
+    system.rounds = 0;  // a fit beside the minimum is near its start, or is no part of the profile
     system.evaluate = [this, value, rows = fit_.system()](const std::vector<double>& theta,
                                                           const TakeRows& take) {
       rows.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {

@@ -145,7 +145,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // and yet the next step changes a parameter by more than its own size, and by more than in the
     // round before, the minimum lies at infinity.
     const bool lost = freedom > 0 && gain * freedom < 1 && size > std::max(1.0, size_before);
-    if (lost || gain == 0 || round == 20) fail<NotOneRoll>("the fit does not converge");
+    if (lost || gain == 0 || round == system.rounds) fail<NotOneRoll>("the fit does not converge");
   }
   if (!determined(best)) fail<NotOneRoll>("the data do not determine the parameters");
   // A negligible step is taken without evaluating the residuals again.

@@ -27,6 +27,28 @@ TEST_CASE("minimise: Rosenbrock's valley, from the usual start", "[fit]") {
   CHECK(std::abs(m.theta[1] - 1) < 1e-14);
 }
 
+TEST_CASE("minimise: a search along a far valley ends after its rounds", "[fit]") {
+  int evaluations = 0;
+  constexpr std::size_t rows = 100;
+  System valley = one_run(
+      rows, 2, [&](const std::vector<double>& x, std::vector<double>& f, std::vector<double>& J) {
+        ++evaluations;
+        f.assign(rows, 1 - x[0]);
+        f[0] = 500 * (x[1] - x[0] * x[0]);
+        J.assign(2 * rows, 0);
+        std::fill_n(J.begin(), rows, -1);
+        J[0] = -1000 * x[0];
+        J[rows] = 500;
+      });
+  const std::vector<double> far = {-100, 1e4};
+  CHECK(std::abs(minimise(valley, far).theta[0] - 1) < 1e-10);
+  CHECK(evaluations > 350);
+  evaluations = 0;
+  valley.rounds = 0;
+  CHECK_THROWS_AS(minimise(valley, far), Error);
+  CHECK(evaluations < 350);
+}
+
 TEST_CASE("minimise: no point is evaluated twice in succession", "[fit]") {
   std::vector<std::vector<double>> points;
   const System valley = one_run(
