@@ -14,11 +14,14 @@ target := number reader scene $(tool)
            $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
 
 # The unit tests are compiled with -Og and parse Catch2 once, which takes 0.4 of the time.
-of_test := $(call object,$(test))
-$(of_test) build/catch.h.gch: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+of_test  := $(call object,$(test))
+of_bench := $(call object,$(wildcard tests/bench/*.cpp tests/fuzz/*.cpp))
+$(of_test) build/catch.h.gch build/catch_main.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 ifneq ($(common),)
 $(of_test): parsed := -include build/catch.h
 $(of_test): | build/catch.h.gch
+$(of_bench): parsed := -include build/common.h
+$(of_bench): | build/common.h.gch
 build/catch.h.gch: override CPPFLAGS += -Itests
 build/catch.h.gch: tests/unit/catch.h build/flags
 	@mkdir -p $(@D)
