@@ -193,8 +193,9 @@ void NeededColumns::refuse(std::string_view name) const {
   const bool is_time = named_ && quantities_.front() == "t";
   if (as_read_.size() == 1 && !is_time && (name == "t" || name == "v" || name == "x"))
     fail(
-        "one column alone, where t is needed beside x or v: if its rows are at equal times, "
-        "awk '{{ print NR * 0.04, $1 }}' adds t{}",
+        "one column alone, but t is needed too: if a row comes every 0.04 s, "
+        "awk '{}{{ print NR * 0.04, $1 }}' adds t{}",
+        named_ ? "NR == 1 { print \"t\", $1; next } " : "",
         named_ ? "" : "; if this line is a heading, begin it with #");
   for (std::size_t i = 0; i < as_read_.size(); ++i)
     if (as_read_[i].name == name)
@@ -203,7 +204,7 @@ void NeededColumns::refuse(std::string_view name) const {
   if (const KnownQuantity* asked = known_quantity(name); asked && !asked->appended_by.empty())
     way_out = fmt::format("; {} appends it", asked->appended_by);
   if (!named_) way_out += "; if this line is a heading, begin it with #";
-  if (has_use_ && known_quantity(read_column(name).name))
+  if (has_use_ && known_quantity(name))
     way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
   fail("there is no column '{}' among {}{}", shown(name), list(), way_out);
 }
@@ -275,20 +276,26 @@ Conversion NeededColumns::conversion(Needed& needed) {
 void NeededColumns::refuse_unit(const Needed& needed, const Column& meant) const {
   const bool as_is = needed.kind == Kind::as_is;
   const KnownQuantity* const known = as_is ? nullptr : known_quantity(needed.quantity);
-  const std::string name = shown(to_text(meant));
+  std::string name = shown_name(needed.column);
+  if (!name.starts_with("column ")) name = fmt::format("column '{}'", shown(to_text(meant)));
   const std::string_view measured = measured_by(meant.unit);
   if (known && measured == "an angle" && known->si == "m")
     fail(
-        "column '{}' is an angle, and {} needs a length: multiply it by R first "
+        "{} is an angle, and {} needs a length: multiply it by R first "
         "(rolling-recipes(7))",
         name, needed.quantity);
-  if (known && !measured.empty())
-    fail("column '{}' is {}, and {} needs {}{}", name, measured, needed.quantity, known->in_words,
-         has_use_ ? fmt::format(": say which column it is, --use {}=COLUMN", needed.quantity) : "");
+  if (known && !measured.empty()) {
+    const auto unit = read_unit(meant.unit);
+    const bool may_be_used = has_use_ && unit && !unit->quantity.empty();
+    fail("{} is {}, and {} needs {}{}", name, measured, needed.quantity, known->in_words,
+         may_be_used ? fmt::format(": use it as {0}, --use {0}={1}, or another column as {2}",
+                                   unit->quantity, needed.column + 1, needed.quantity)
+                     : "");
+  }
   std::string_view units = known ? known->units : needed.unit;
   if (units.empty()) units = "none";
   fail(
-      "column '{}' cannot serve as {}: its unit '{}' is not one of those known ({}); "
+      "{} cannot serve as {}: its unit '{}' is not one of those known ({}); "
       "convert it first (rolling-recipes(7)){}",
       name, as_is ? needed.name : needed.quantity, shown(meant.unit), units,
       has_use_ ? fmt::format(" or say --use '{}={}[UNIT]'", needed.quantity, needed.column + 1)

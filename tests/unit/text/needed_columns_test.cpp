@@ -161,7 +161,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {});
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
-        "one column alone, where t is needed beside x or v: if its rows are at equal times, "
+        "one column alone, but t is needed too: if a row comes every 0.04 s, "
         "awk '{ print NR * 0.04, $1 }' adds t; if this line is a heading, begin it with #");
   needed.begin_run(columns({"t", "c2"}), false, {});
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
