@@ -70,9 +70,7 @@ K=$(awk "BEGIN { print $rotating / $m }")
 fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"
 }
-# That R is 1 is an idea of this script, which fitpower doubts.
-fit "$scratch/runs" >"$scratch/row" 2>"$scratch/said" || { cat "$scratch/said" >&2 && exit 1; }
-grep -v ': if they are swapped' "$scratch/said" >&2 || true
+fit "$scratch/runs" >"$scratch/row" || exit 1
 
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,

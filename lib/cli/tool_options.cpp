@@ -85,9 +85,11 @@ std::string long_name(std::string_view names) {
 }
 
 /// What CLI11 says of an option without a value, or with too many: `--width: 1 required N missing`.
-std::string in_our_words(std::string_view said) {
+std::string in_our_words(const CLI::App& app, std::string_view said) {
   const std::string name(said.substr(std::min(said.find_first_not_of('-'), said.size())));
-  const std::string option = "--" + name.substr(0, name.find_first_of(": "));
+  std::string option = "--" + name.substr(0, name.find_first_of(": "));
+  const CLI::Option* const known = app.get_option_no_throw(option);
+  if (known) option = known->get_name(false, true);  // -K,--shape-factor
   if (said.find("override") != std::string_view::npos) return option + " takes no value";
   if (said.find("At Most") != std::string_view::npos) return option + " is given twice";
   if (said.find("missing") != std::string_view::npos) return option + " needs a value";
@@ -237,7 +239,7 @@ void Tool::doubt_body() {
   if (K > 0.1 && m > 1e6 * R * R * R)
     doubts_.push_back(
         fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}", m, R, m / 1000));
-  if (K > 0 && K < 0.1 && (R == 0.4 || R == 0.5 || R == 1))
+  if (K > 0 && K < 0.1 && (R == 0.4 || R == 0.5))
     doubts_.push_back(
         fmt::format("K = {} and R = {} m: if they are swapped, write -K {} -R {}", K, R, R, K));
   for (const std::string& doubt : doubts_) warn(doubt);
@@ -245,7 +247,7 @@ void Tool::doubt_body() {
 
 void Tool::scene() {
   text("--scene", scene_file_, "FILE",
-       "TOML file with the long names of a scene's options; the command line wins");
+       "TOML file with options by their long names; the command line wins");
 }
 
 bool Tool::given(double Body::*number) const {
@@ -271,7 +273,7 @@ std::string Tool::parse(int argc, const char* const* argv) {
     fail("no such option or operand: {} (see --help)",
          shown(without_mark(app_->remaining().front())));
   } catch (const CLI::ParseError& error) {
-    fail("{} (see --help)", in_our_words(error.what()));
+    fail("{} (see --help)", in_our_words(*app_, error.what()));
   }
 }
 
