@@ -224,13 +224,13 @@ int main(int argc, char** argv) {
   add_options(tool, law);
   tool.geometry(task.given.geometry);
   tool.text("--columns", columns, "NAME,...",
-            "what to append: any quantities of the paper (energies and flows of energy)");
-  tool.number("--temperature", task.temperature, positive, "of the mat [K], for Pi_S");
+            "append these quantities of the paper (energies and flows of energy)");
+  tool.number("--temperature", task.temperature, positive, "temperature of the mat [K], for Pi_S");
   tool.flag("--summary", task.summary,
-            "print only a row for each run: energies at the start, at the end, dissipated; closure "
+            "print one row for each run: energy at the start and end, energy dissipated, closure "
             "and imbalance");
   tool.number("--check", task.tolerance, not_negative,
-              "exit with 1 when |closure| or the imbalance is above this");
+              "exit with 1 if |closure| or the imbalance is above this");
   tool.scene();
   tool.input();
   tool.output();

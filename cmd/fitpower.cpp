@@ -21,7 +21,7 @@ void fix(FitOptions& options, const std::string& setting) {
   const auto parameter = parameters.find(setting.substr(0, equals));
   double value;
   if (equals == std::string::npos || parameter == parameters.end())
-    fail("'{}' is not NAME=VALUE with a NAME of a, b, v0 and x0", shown(setting));
+    fail("'{}' is not NAME=VALUE; NAME is a, b, v0 or x0", shown(setting));
   if (!parse_number(std::string_view(setting).substr(equals + 1), value))
     fail("the value in '{}' is not a number", shown(setting));
   if (*parameter->second) fail("'{}' comes after another for {}", shown(setting), parameter->first);
@@ -41,7 +41,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
               options);
   add_height(tool, bodies.height);
   tool.add("--x0", "X,...",
-           "where speeds begin on the road [m]; one, or one for each run: 0,2400 (the column x)",
+           "x at the start of runs of speeds [m]; one, or one for each run: 0,2400 (the column x)",
            [&](const std::string& text) {
     for (const std::string& x : split_names(text, ','))
       bodies.begins.push_back(to_number(x, any_number));
@@ -49,13 +49,13 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
   tool.choice("--steepness", options.fit_steepness, {{"fit", true}},
               "find a factor of the height, one for all runs");
   tool.geometry(options.geometry);
-  tool.number("--min-speed", options.min_speed, not_negative, "leave slower rows out [m/s]");
+  tool.number("--min-speed", options.min_speed, not_negative, "leave out slower rows [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
   tool.add("--law", "LAW", "fit this law of those that --report compares: d0+d2*v^2",
            [&](const std::string& text) { options.law = &law_named(text); });
   tool.add(
-      "--fix", "NAME=VALUE", "hold a, b, v0 or x0 fixed",
+      "--fix", "NAME=VALUE", "fix a, b, v0 or x0 at this value",
       [&](const std::string& setting) { fix(options, setting); }, Tool::Values::many);
 }
 
@@ -201,15 +201,15 @@ int main(int argc, char** argv) {
   bool with_report = false;
   tool.choice<std::optional<Route>>(
       "--route", given_route, routes(),
-      "D of v (loglog, shift), v of t, x of t, or rows of fitpower (fits); without it shift "
-      "if there is D, else position if x, else velocity");
+      "fit D(v) (shift, loglog), v(t), x(t), or rows of fitpower (fits); without it shift if "
+      "there is a D, else position if there is an x, else velocity");
   add_options(tool, options, bodies);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
-            "print on standard error how the uncertainties were made, and the fits of other laws");
+            "print the parts of the uncertainties and the fits of other laws on standard error");
   tool.flag("--check", tool.checks,
-            "exit with 1 if runs disagree, a beginning, another law or the residuals speak against "
-            "the fit");
+            "exit with 1 if the runs disagree, or the start, the residuals or another law speak "
+            "against the fit");
   tool.scene();
   tool.input();
   tool.output();

@@ -129,8 +129,7 @@ struct Task {
     if (std::isnan(roll.v0)) tool.need({"v0"});
     // They are correlated with the law, and the row does not say how.
     if (foretells && roll.v0 != given_v0)
-      fail<OptionError>(
-          "sigma_x and sigma_v are of another roll than that of the row: say its --v0");
+      fail<OptionError>("sigma_x and sigma_v need the speed of a new roll: say its --v0");
     for (const auto& [name, fitted] :
          {std::pair("slope", law_of_file.slope), {"wind", law_of_file.wind}})
       if (foretells && !std::isnan(fitted) && !tool.on_command_line(name))
@@ -210,21 +209,21 @@ void add_options(Tool& tool, Task& task) {
   tool.body(roll.body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, task.law);
-  tool.text("--run", task.run, "NAME", "the run whose row of --law is rolled");
+  tool.text("--run", task.run, "NAME", "use the row of --law with this name in its column run");
   tool.geometry(roll.geometry);
-  tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s]: below 0 towards falling x");
+  tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s], negative towards falling x");
   tool.number("--x0", roll.x0, any_number, "position at t0 [m] (0)");
   tool.number("--t0", task.t0, any_number, "time at which the roll begins [s] (0)");
   tool.number("--memory", roll.bulge.length, positive,
-              "length over which the bulge follows the law [m]: rolls backwards before rest");
+              "length over which the bulge follows the law [m]: the body rolls back before rest");
   tool.number("--damping", roll.bulge.damping, not_negative, "damping of the bulge [s] (0)");
   tool.choice("--method", task.method, methods,
-              "how v(t) is found: closed, exact, or else a solver (the cheapest that is exact)");
+              "how to find v(t): closed, exact, or a solver (the cheapest that is exact)");
   tool.number("--rtol", task.rtol,
               {"from 1e-12 to 0.1", [](double x) { return x >= 1e-12 && x <= 0.1; }},
               "tolerance of a solver, relative to the change in a step (1e-10)");
   tool.flag("--report", task.report,
-            "print error against run time of the methods on this scene, not the motion");
+            "print error against run time of the methods, instead of the motion");
 }
 
 void add_options(Tool& tool, SonarOptions& sonar) {
@@ -304,12 +303,12 @@ int main(int argc, char** argv) {
   bool sensor = false;
   add_options(tool, task);
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");
-  tool.number("--until", until, any_number, "no row is later than this [s] (the stop)");
-  tool.text("--at", times_file, "FILE", "file with a column t: the times of the rows, instead");
+  tool.number("--until", until, any_number, "print rows up to this time [s] (the stop)");
+  tool.text("--at", times_file, "FILE", "file with a column t: print rows at these times");
   tool.text("--columns", columns, "NAME,...",
-            "what to compute, of t,x,v,a,D,sigma_x,sigma_v (the first five)");
+            "print these of t,x,v,a,D,sigma_x,sigma_v (the first five)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
-                    "write what this motion sensor sees, push and rest included");
+                    "write what this motion sensor would see, push and rest included");
   tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
   add_options(tool, sonar);
   tool.scene();

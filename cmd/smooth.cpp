@@ -104,9 +104,8 @@ class Told {
 };
 
 void add_options(Tool& tool, SelectionOptions& select) {
-  tool.number(
-      "--outliers", select.outliers, positive,
-      "leave out readings that are this many times the scatter off their neighbours' motion");
+  tool.number("--outliers", select.outliers, positive,
+              "leave out readings this many times the scatter off the motion of their neighbours");
   tool.flag("--coast", select.coast,
             "keep the free roll only: without push, hold, hand, brake and rest");
   tool.flag("--rolls", select.rolls, "keep every free roll, each as a run of its own");
@@ -132,12 +131,12 @@ int main(int argc, char** argv) {
   auto methods = by_name(smoothing_methods);
   SignalOptions options{methods["mean"]};
   tool.text("-c,--column", column, "COLUMN",
-            "the column to smooth (v; to select by x, else v; else the first that is not t)");
-  tool.choice("-M,--method", options.method, methods, "what takes the place of a reading (mean)");
+            "the column to smooth (v, else the first that is not t); to select rows, x before v");
+  tool.choice("-M,--method", options.method, methods, "what replaces a reading (mean)");
   tool.count("-w,--width", options.width.samples, whole,
              "width of the window, an odd number of rows (11)");
   tool.number("--seconds", options.width.seconds, positive,
-              "width of the window in seconds, instead");
+              "width of the window in seconds, instead of rows");
   tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
   add_options(tool, select);
   tool.input();

@@ -94,8 +94,7 @@ std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file
       fail<InputError>("{}: rows of several laws: give those of one", shown(file));
     if (!runs.insert(row.run).second)
       fail<InputError>(
-          "{}: more than one row{}: a law is one row of fitpower, or one for each run, with its "
-          "name in a column run",
+          "{}: more than one row{}: give one row, or rows of fitpower --each, with a column run",
           shown(file), row.run.empty() ? "" : fmt::format(" of run '{}'", shown(row.run)));
   });
   if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(file));
@@ -209,7 +208,7 @@ void add_options(Tool& tool, LawOptions& law) {
               "coefficient a of the law D = a v^b [m (s/m)^b]");
   tool.number("-b,--exponent", law.power.b, any_number, "exponent b of the law");
   tool.text("--law", law.file, "FILE",
-            "file (- is standard input) with the law: a row of fitpower or a table of v D");
+            "file (- is standard input) with the law: a row of fitpower or a table of v and D");
 }
 
 void check_wind(const Body& body, const Law& law) {
@@ -312,10 +311,15 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
   };
   if (replaced && in.history().empty() && std::ranges::none_of(laws, adds))
     fail<OptionError>("--law adds nothing to the command line: leave it out");
+  const auto of_several = [](const std::string& line) {
+    return line.starts_with("fitpower ") && line.find(',') != std::string::npos;
+  };
   for (LawOfFile& law : laws) {
     if (replaced) law.law = options.power;
-    if (std::isnan(law.contact.body.K) || std::isnan(law.contact.body.R))
-      tool.need({"radius", "shape-factor"});
+    if (!std::isnan(law.contact.body.K) && !std::isnan(law.contact.body.R)) continue;
+    if (std::ranges::any_of(in.history(), of_several))
+      fail<OptionError>("{}: the row has several K or R: give -K and -R", shown(file));
+    tool.need({"radius", "shape-factor"});
   }
   return laws;
 }
@@ -327,7 +331,9 @@ const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& r
     if (law.run == run) return law;
     add_item(runs, law.run);
   }
-  fail<InputError>("the file of laws has no row of run '{}' (runs: {})", shown(run), shown(runs));
+  fail<InputError>(
+      "the file of laws has no row of run '{}' (runs: {}); a file of one row is for all runs",
+      shown(run), shown(runs));
 }
 
 std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) {

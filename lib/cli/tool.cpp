@@ -104,8 +104,7 @@ void Tool::input() {
   };
   add("FILE", "", "input files, read in order; - or none is standard input",
       append_to(input_.files), Values::many);
-  add("--use", "NAME=COLUMN",
-      "the column (a name or a number from 1) that serves as t, x, v, a or D",
+  add("--use", "NAME=COLUMN", "use this column (a name or a number from 1) as t, x, v, a or D",
       append_to(input_.use), Values::many);
   text("--run", input_.run, "RUN",
        "read this run only: by the number or word in its header, else by its place");
@@ -123,7 +122,7 @@ void Tool::output() {
         {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
         "round computed numbers to this many significant digits");
   flag("--plain", out.plain,
-       "print one table for other programs: no # and no blank line, the run in a last column");
+       "print one table for other programs: no #, no blank lines, the run in the last column");
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");
 }
 
@@ -172,7 +171,7 @@ void note_memory_has_run_out() {
 
 /// What a user can do about the errors of numeric code.
 const std::string choose_roll =
-    ": are all of these rows of one free roll that slows down (up a slope and back: --slope fit)? "
+    ": do all rows belong to one free roll that slows down (up a slope and back: --slope fit)? "
     "Choose it with smooth --coast, or with --from and --to";
 const std::map<std::type_index, std::string> ways_out{
     {typeid(NotOneRoll), choose_roll},
@@ -197,7 +196,7 @@ std::string Tool::told(const Error& error) const {
   if (has("slope") && given("slope"))
     text = replace_all(
         text, {{"up a slope and back: --slope fit",
-                "rolls in both directions tell a slope, speeds towards falling x are below 0"}});
+                "a slope needs rolls both ways, and the speeds of the way back are negative"}});
   return text;
 }
 
@@ -227,7 +226,7 @@ std::string Tool::message_of(const Error& error) const {
   const bool of_motion = dynamic_cast<const MotionError*>(&error);
   if (of_motion && !fixed_values().empty()) text += fmt::format(" (given: {})", fixed_values());
   if (of_motion && !in.assumed().empty())
-    text += fmt::format(" ({}; for other columns say --use)", in.assumed());
+    text += fmt::format(" ({}; for other columns say --use, as --use x=2)", in.assumed());
   return text;
 }
 
@@ -250,6 +249,10 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     doubt_body();
     return finish(work());
   } catch (const Error& error) {
+    // What was odd in the rows may be why no roll fits them; message_of() says what was assumed.
+    if (!readers_.empty() && dynamic_cast<const MotionError*>(&error))
+      for (const std::string& warning : readers_.back()->warnings())
+        if (warning != readers_.back()->assumed()) warn(warning);
     say(message_of(error));
   } catch (const std::bad_alloc&) {
     say("out of memory");

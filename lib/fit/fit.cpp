@@ -115,14 +115,14 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   };
   if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
     fail(
-        "a wind and the law slow the body down alike, and these runs cannot separate them: add "
-        "runs in the other direction, of negative v");
+        "a wind and the law slow the body down alike, and these runs go one way: add runs in the "
+        "other direction; their speeds are negative");
   if (options.fit_slope && !both_ways(found) &&
       !(has_errors && result.law.power() && all_known(result, options) && !not_visited(0) &&
         !not_visited(form.coefficients.size())))
     fail(
-        "a slope of the mat and its law slow the body down alike, and these runs cannot separate "
-        "them ({} comes out as {}): add runs in the other direction, of negative v",
+        "a slope and the law slow the body down alike, and these runs go one way ({} comes out as "
+        "{}): add runs in the other direction; their speeds are negative",
         form.coefficients.front().name, shown(result.coefficients.front()));
   for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
     bool known = is_known(result, j, options);
@@ -156,14 +156,14 @@ void require_roll(const Fitted& found) {
                                       (run.t[i + 1] - run.t[i]));
     if (v0 > levels::v0_over_speeds * fastest)
       fail<ReadingOff>(
-          "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, is hardly of the "
-          "roll",
+          "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, probably does not "
+          "belong to the roll",
           run.place, found.v0[r].value, run.origin);
     if (roll.radius_time(last) < last && roll.radius_speed() > rest * v0)
       fail(
-          "{}{} have no meaning below {:.2g} m/s, where D is beyond the radius {} m: leave the "
-          "rows out that follow, or fit with A = 1",
-          run.place, names_of(found.parameters().form()), roll.radius_speed(), run.body.R);
+          "{}below {:.2g} m/s D is beyond the radius {} m, and {} have no meaning: leave out the "
+          "rows that follow, or fit with A = 1",
+          run.place, roll.radius_speed(), run.body.R, names_of(found.parameters().form()));
   }
 }
 

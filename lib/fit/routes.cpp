@@ -71,11 +71,11 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
   std::vector<Response> responses = responses_of(runs);
   const bool known = !responses.empty();
   if (options.fit_slope && route == Route::loglog)
-    fail("the slope shows in a roll alone, not in a line through ln D: take the route shift");
+    fail("a line through ln D does not show the slope: take the route shift");
   if (options.fit_slope && route == Route::shift && !known)
-    fail("the slope shows in a roll alone: on this route `##` lines must say how D was made");
+    fail("D alone does not show the slope: `##` lines must say how D was made");
   if ((options.fit_wind || runs.front().body.wind != 0) && !is_trajectory(route))
-    fail("the wind shows in a roll alone: take the route velocity or position");
+    fail("D alone does not show the wind: take the route velocity or position");
   if (options.robust && known)
     fail(
         "a robust fit judges single readings, and a filter spreads an outlier over many: fit the "
@@ -102,7 +102,7 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
   const Fitted power = fit_power(route, runs, options);
   Fitted found = fit_beside(power, *options.law);
   std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
-  scene += ": add runs in the other direction, of negative v";
+  scene += ": add runs in the other direction; their speeds are negative";
   if (!was_found(found))
     fail<MotionError>("the rows do not determine D = {}{}", options.law->formula,
                       found.parameters().scene() > 0 ? scene : "");

@@ -38,7 +38,7 @@ void warn_of_lost_history(Tool& tool, const std::vector<Run>& runs) {
       std::ranges::find_if(runs, [](const Run& run) { return change_numbers(run.filters); });
   for (const Run& run : runs)
     if (first != runs.end() && run.filters.empty())
-      tool.warn(run.name, "its filters are not known, as those of run " + first->name +
+      tool.warn(run.name, "its filters are not known, those of run " + first->name +
                               " are: the fit goes on as if no filter were known");
 }
 
@@ -113,7 +113,7 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<Run>& runs) {
     }
     if (readings.back().size() >= 10 * sizeof(double) && !different.insert(readings).second)
       tool.object(run.name,
-                  "its readings are those of a run before it: leave copies out, for each counts as "
+                  "its readings are those of an earlier run: leave copies out, for each counts as "
                   "one more roll");
   }
 }

@@ -106,8 +106,8 @@ class Remarks {
     }
     if (noisy_ && r_.scene[0] && r_.scene[0]->sigma > 0 && fit_.runs.size() == 2)
       tool_.warn("",
-                 "two rolls alone give the slope: what their laws differ by counts as slope, and "
-                 "its standard uncertainty does not hold that; add rolls in both directions");
+                 "the slope rests on two rolls: any other difference between them counts as slope, "
+                 "and is not in its standard uncertainty; add rolls in both directions");
     if (!tool_.checks) return;
     if (other_law && fit_.laws->against >= levels::another_law + 2 * std::log(fits_))
       object(run_, fmt::format("D = {} is better than {} by {:.1f} in AICc; see --report",
@@ -122,9 +122,8 @@ class Remarks {
     if (!options_.fit_slope) ways += "; if they rolled in both directions, --slope fit";
     const double K = fit_.runs.front().body.K;
     const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
-    return ways + (std::ranges::any_of(fit_.runs, differs)
-                       ? "; look whether each K stands in the place of its file"
-                       : "; if bodies differ, a K for each");
+    return ways + (std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
+                                                           : "; if bodies differ, a K for each");
   }
 
   /// What spoils the fit.
@@ -141,9 +140,9 @@ class Remarks {
       const bool beyond = D > R;
       if (!beyond && std::abs(D) >= levels::least_D_over_R * R) continue;
       const std::string text = fmt::format(
-          "no body rolls so: at its first speed, {:.3g} m/s, D is {:.3g} m, {} the radius {} m: "
-          "the units of a column are hardly right",
-          v0, D, beyond ? "beyond" : "not a ten-thousandth of", R);
+          "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of a column "
+          "is probably wrong",
+          D, v0, beyond ? "beyond" : "less than a ten-thousandth of", R);
       if (beyond) object(fit_.runs[i].name, text);
       else tool_.warn(fit_.runs[i].name, text);
       break;
@@ -165,7 +164,7 @@ class Remarks {
       }
       if (way_before_turn(fit_.route == Route::position, t, y) != 0)
         object(run.name,
-               "the body comes back, which it does on no level mat: give --slope, or fit it with "
+               "the body comes back, so the mat is not level: give --slope, or fit it with "
                "--slope fit");
     }
   }
@@ -185,9 +184,8 @@ class Remarks {
                  r_.off.count > 1 ? fmt::format(", and {} more are off", r_.off.count - 1) : ""));
     if (r_.b + levels::below_least_b * r_.sigma_b < levels::least_b)
       object(run_,
-             fmt::format("b is {:.3g} +- {:.2g}: no mat resists so much more as the body slows "
-                         "down, but a hand, a wall, an incline or a magnet at the end of the roll "
-                         "does; cut it off",
+             fmt::format("b is {:.3g} +- {:.2g}: no mat does this, but a hand, a wall, an incline "
+                         "or a magnet at the end of the roll does; cut it off",
                          r_.b, r_.sigma_b));
     spoilt_ |= std::ranges::any_of(fit_.runs, [&](const Run& run) { return rounding(run); });
   }
@@ -219,8 +217,8 @@ class Remarks {
     if (!are_held(y) && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
     tool_.warn(run.name, fmt::format("the {} repeat, or have hardly any noise but their rounding: "
                                      "these errors are correlated, and sigma_a and sigma_b may be "
-                                     "too small; keep only the rows in which a new one comes, or "
-                                     "see how several runs scatter",
+                                     "too small; keep only rows with a new reading, or see how "
+                                     "several runs scatter",
                                      positions ? "positions" : "speeds"));
     return true;
   }
@@ -228,9 +226,8 @@ class Remarks {
   /// An a whose interval a +- sigma_a does not hold what it says, also of rows without noise.
   void uncertain_a() {
     if (r_.a > 0 && r_.sigma_a > levels::uncertain_a * r_.a)
-      tool_.object(run_, fmt::format("sigma_a is {:.2g} times a: this ratio is the standard "
-                                     "uncertainty of ln a, and a is too uncertain for the interval "
-                                     "a +- sigma_a",
+      tool_.object(run_, fmt::format("sigma_a is {:.2g} times a: too much for the interval a +- "
+                                     "sigma_a; this ratio is the standard uncertainty of ln a",
                                      r_.sigma_a / r_.a));
   }
 
@@ -242,20 +239,20 @@ class Remarks {
           fmt::format(
               "the speed changes once a turn ({}; 1 % of good runs get this warning), as "
               "if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of it "
-              "at {:.0f} degrees: the law is further off than its uncertainties say; "
-              "balance the body, unless --report shows a better law",
+              "at {:.0f} degrees: sigma_a and sigma_b are too small; balance the body, "
+              "unless --report shows a better law",
               p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
               std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
     if (noise_is_correlated(r_) && !tool_.checks) tell_not_white();
     else if (r_.reversals <= levels::few_reversals)
       tool_.warn(run_,
-                 "fewer readings turn back against the motion than their noise would make: they "
-                 "look like medians or means of others, whose noise is correlated, and sigma_a and "
-                 "sigma_b may be too small; fit what the sensor read");
+                 "the readings look like medians or means of others: too few turn back against the "
+                 "motion; their noise is correlated, and sigma_a and sigma_b may be too small; fit "
+                 "what the sensor read");
     if (r_.errors == Errors::uneven)
       tool_.warn(run_,
-                 "the noise is not of one size along the run, which its uncertainties take into "
-                 "account: look at the residuals");
+                 "the size of the noise changes along the run; sigma_a and sigma_b allow for it: "
+                 "look at the residuals");
   }
 
   /// The name of a coefficient or, behind them, of a number of the scene.
@@ -294,13 +291,13 @@ class Remarks {
   void check() {
     if (r_.errors == Errors::none ||
         (r_.sigma_a == 0 && r_.sigma_b == 0 && !(options_.a && options_.b)))
-      object(run_, "nothing is left for standard uncertainties: fit more readings");
+      object(run_, "too few readings for standard uncertainties: fit more");
     if (!noisy_) return;
     const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_);
     if (beginning && beginning->p <= levels::beginning / fits_)
       object(fit_.runs[beginning->run].name,
-             fmt::format("the first {} rows do not go on as the others ({}), as if a hand were "
-                         "still on: cut off {:.2g} s",
+             fmt::format("the first {} rows follow another motion ({}), as if a hand were still "
+                         "on: cut off {:.2g} s",
                          beginning->rows, p_of(beginning->p), beginning->time));
     if (r_.whiteness <= levels::not_white / fits_) tell_not_white();
   }

@@ -101,8 +101,8 @@ std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions
     refuse_spikes(run, 0.02);
     const auto [low, high] = std::ranges::minmax(y);
     fail<NoFreeRoll>(
-        "no free roll is found: the readings go from {:.4g} to {:.4g}, and no motion in them that "
-        "slows down stands out of their noise of {:.1g}",
+        "no free roll is found: the readings go from {:.4g} to {:.4g}, and no slowing down is "
+        "above their noise of {:.1g}",
         low, high, std::ldexp(noise, units.y));
   }
   const auto of_run = [&](const Stretch& s) {

@@ -80,7 +80,7 @@ smooth -M savgol -w 75 --order 11 @|a polynomial of order 11: at most 10
 smooth --seconds 0,5 @|'0,5' is not a number (decimal point, no unit)
 smooth -w 3 -w 5 @|--width is given twice
 smooth -q @ -q|--quiet is given twice
-smooth @ -w|--width needs a value
+smooth @ -w|-w,--width needs a value
 smooth --quiet=yes @|--quiet takes no value
 smooth -M nothing @|'nothing' is not one of
 smooth -c w @|there is no column 'w' among
