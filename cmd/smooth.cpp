@@ -86,12 +86,13 @@ class Told {
       tool_.warn(fmt::format("{} left out: at {}{} s", counted(outliers_, "outlier"), times_,
                              outliers_ > 10 ? ", ..." : ""));
     if (rolls_ == 1) tool_.warn(one_);
+    constexpr std::array how{"rolled to rest", "stopped by something", "still rolling at the end"};
+    std::string ends;
+    for (std::size_t i = 0; i < how.size(); ++i)
+      if (ends_[i] > 0) add_item(ends, fmt::format("{} {}", ends_[i], how[i]));
     if (rolls_ > 1)
-      tool_.warn(
-          fmt::format("{} {} of {} rows in {} of {}: {} rolled to rest, {} were stopped, {} "
-                      "still rolled at the end of the run",
-                      keeps_, kept_, rows_, counted(rolls_, "roll"), counted(runs_, "run"),
-                      ends_[0], ends_[1], ends_[2]));
+      tool_.warn(fmt::format("{} {} of {} rows in {} of {}: {}", keeps_, kept_, rows_,
+                             counted(rolls_, "roll"), counted(runs_, "run"), ends));
   }
 
  private:

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# law.sh [-f FROM] [-t TO] [-n N] [ROW]: the law of a row of fitpower, from a file or from standard
-# input, as columns: N velocities (50) from FROM to TO in m/s, D, and the limits of its 68 % and of its
-# 95 % band. TO is v0 of the row, or 0.5 where it has none, and FROM a 25th of TO. Of several rows each
-# makes a run.
+# law.sh [-f FROM] [-t TO] [-n N] [ROW]: prints the law of a row of fitpower as columns: v, D, and the
+# limits of the 68 % and the 95 % band of D. ROW is a file; without it standard input is read. There are
+# N velocities (50) from FROM to TO in m/s. TO is v0 of the row (else 0.5), FROM a 25th of TO. Each of
+# several rows makes a run.
 #
-# The band is that of ln D, at 1 and 1.96 standard uncertainties: energy-ledger finds sigma_D from
-# the uncertainties of the row and their correlations. It needs an awk with exp.
+# The band is that of ln D, at 1 and 1.96 standard uncertainties. energy-ledger computes sigma_D from
+# the uncertainties of the row and their correlations. The script needs an awk with exp.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

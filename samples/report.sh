@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One page with Table 1, the energy check and the figures, all in it, on standard output:
-#   samples/report.sh FIGURES [WORK-PRECISION] >report.html
-# FIGURES is a folder with the SVGs of samples/figures, and with the manual pages in man/, if they
-# are to be linked; WORK-PRECISION is one with the SVGs of `make work-precision`, where that was
-# run. `make report` does it all.
+# report.sh FIGURES [WORK-PRECISION] >report.html: makes one page with Table 1, the energy check and the
+# figures. FIGURES is a folder with the SVGs of samples/figures; if it has the manual pages in man/, the
+# page links them. WORK-PRECISION is a folder with the SVGs of `make work-precision`. `make report` does
+# all of this.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

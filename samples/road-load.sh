@@ -1,28 +1,27 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# road-load.sh -m MASS --rotating KG [OPTION]... OUT... [--back FILE...]: the road load of a vehicle
-# from the coast-downs of a test day, F = f0 + f1 v + f2 v^2, with standard uncertainties.
+# road-load.sh -m MASS --rotating KG [OPTION]... OUT... [--back FILE...]: prints the road load of a
+# vehicle, F = f0 + f1 v + f2 v^2, with standard uncertainties, from the coast-downs of a test day.
 #
 #   OUT...           runs one way: time and speed, in the units of their header (km/h, mph, m/s)
-#   --back FILE...   runs the other way, whose speeds have no sign: all files that follow
+#   --back FILE...   runs the other way, with speeds without a sign: all files that follow
 #   -m MASS          mass of the vehicle, the mean of the day [kg]
-#   --rotating KG    equivalent mass of what turns [kg]: the sum of I/r^2 of the wheels, or, by GTR 15,
-#                    3 % of the mass in running order and 25 kg
-#   --no-f1          F = f0 + f2 v^2: its f0 and f2 are known seven times better, if f1 is 0
+#   --rotating KG    equivalent mass of the rotating parts [kg]: the sum of I/r^2 of the wheels, or, by
+#                    GTR 15, 3 % of the mass in running order and 25 kg
+#   --no-f1          F = f0 + f2 v^2: if f1 is 0, f0 and f2 come out seven times more precisely
 #   --slope S|fit    rise of the road along OUT (with --back fit, else 0)
-#   --height FILE    height of the road [m] over the way x [m]; --x0 X,... where the runs begin
-#   --wind W|fit     head wind of OUT [m/s]; or the wind that all runs have in common
-#   --column NAME=COLUMN   which column serves as t or v, as --use of the tools; may be repeated
-#   -T C -p KPA      temperature and pressure of the day: then it prints C_d A, and the load at the
-#                    standard
+#   --height FILE    height of the road [m] over the way x [m]; --x0 X,... the starts of the runs
+#   --wind W|fit     head wind of OUT [m/s]; fit finds one wind for all runs
+#   --column NAME=COLUMN   use this column as t or v, as --use of the tools; may be repeated
+#   -T C -p KPA      temperature and pressure of the day: prints C_d A and the load at the standard too
 #   --standard NAME  gtr15 (20 C, 100 kPa) or cfr (40 CFR 1066.805: 20 C, 98.21 kPa)
 #   --test-mass TM   mass of the standard [kg] (MASS)
-#   --anemometer W   mean speed of the wind that was measured [m/s] (0), if it is not fitted
-#   -o FILE.svg      the force over the speed, with its 95 % band, where gnuplot is installed
+#   --anemometer W   measured mean speed of the wind [m/s] (0), if it is not fitted
+#   -o FILE.svg      draws the force over the speed, with its 95 % band (needs gnuplot)
 #
-# Every number is that of fitpower on the free coasts of smooth --coast: no speeds are differenced,
-# and no interval of speeds is chosen. Behind it stand the times of the pairs of runs, OUT by OUT with
-# --back, and their statistical precision p, which GTR 15 wants below 3 %.
+# fitpower fits the free coasts that smooth --coast finds: there are no differences of speeds and no
+# chosen intervals of speed. Below the load stand the times of the pairs of runs, each OUT with its
+# --back, and their statistical precision p (GTR 15: below 3 %).
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

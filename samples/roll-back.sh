@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# roll-back.sh -K K -R R [-w SECONDS] FILE: the brief roll backwards before a body rests, in a run with
-# positions: when it begins, how long it lasts, how far it goes and how fast at most, each with
-# its standard uncertainty, and the length of a memory of the bulge that does so; or that it is not seen
-# above the noise.
+# roll-back.sh -K K -R R [-w SECONDS] FILE: measures the brief roll backwards before a body rests, in a
+# run with positions. It prints when it begins, how long it lasts, how far it goes, its highest speed,
+# and the length of the memory of the bulge that explains it, with standard uncertainties; or it says
+# that the roll is not above the noise.
 #
-# Velocities are slopes of parabolas over SECONDS (0.08), but at least over five rows. The uncertainties
-# are the scatter over 100 copies of the run with as much noise again as its fit leaves over. As many
-# as 200 runs of a body that stops under its law and rests, with that noise, say how often noise alone
-# looks like such a roll: it is seen where at most 2 of them go as far.
+# Velocities are slopes of parabolas over SECONDS (0.08), or over five rows if that is more. The
+# uncertainties are the scatter over 100 copies of the run with added noise of the size of the residuals.
+# Up to 200 simulated runs without such a roll, with that noise, show how far noise alone goes: the roll
+# counts as seen if at most 2 of them go as far.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

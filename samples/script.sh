@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=sh
-# What the scripts of samples share. Each sources it behind `set`, LC_ALL and CDPATH:
+# The scripts of samples share this file. Each sources it after `set`, LC_ALL and CDPATH:
 #
 #   . "$(dirname "$0")/script.sh"
 #
-# It prints the comment at the top of the script for -h and --help, and that of the file $also where
-# that is set, puts the tools of this source before those on the PATH, and has the functions below.
+# For -h and --help it prints the comment at the top of the script, and that of the file $also if that is
+# set. It puts the tools of this source before those on the PATH, and has the functions below.
 help() {
   for page in "$0" ${also:+"$also"}; do sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$page"; done
 }
@@ -56,14 +56,14 @@ is_number() { printf '%s\n' "$1" | grep -qxE '[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)(
 # KEY of a scene: its value, and that with its standard uncertainty: 0.5+-0.005.
 given() { sed -n "s/^$1 *= *//p" "$2" | tr -d '" '; }
 value() { given "$1" "$2" | sed 's/+-.*//'; }
-# Of a list, K or R, the value of run number $2.
+# of_run LIST I: the value of run number I in a list of K or R.
 of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
-# named FILE NAME: the runs in FILE; one without a name gets that of the file NAME.
+# named FILE NAME: the runs in FILE; a run without a name gets that of the file NAME.
 named() {
   grep -q '^## run ' "$1" || printf '## run %s\n' "$(printf %s "${2##*/}" | tr '[:cntrl:]' '?')"
   cat "$1"
 }
-# columns FILE NAME...: these columns, with nothing else.
+# columns FILE NAME...: these columns alone.
 columns() {
   file=$1
   shift
@@ -78,8 +78,7 @@ columns() {
     }
     NF { for (j = 1; j <= n; j++) printf "%s%s", $at[j], (j < n ? "\t" : "\n") }' "$file"
 }
-# window SECONDS FILE LEAST: the odd number of rows that are so long in a run, LEAST at least, and no
-# more than it has.
+# window SECONDS FILE LEAST: the odd number of rows that last SECONDS, at least LEAST, at most all rows.
 window() {
   columns "$2" t | awk -v width="$1" -v least="$3" '
     NR == 1 { first = $1 }
@@ -91,14 +90,14 @@ window() {
       print rows
     }'
 }
-# For awk: normal(), numbers that are the same with each awk, from the generator of Park and Miller by
-# Box and Muller.
+# For awk: normal(), by the generator of Park and Miller and the method of Box and Muller. Each awk makes
+# the same numbers.
 # shellcheck disable=SC2034  # for those who source this
 random='function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
 function normal() { return sqrt(-2 * log(uniform())) * cos(6.283185307179586 * uniform()) }
 BEGIN { if (!seed) seed = 1 }'
-# place FOLDER FILE...: they come to stand there, all of them or none; only with $replace in the place of
-# others.
+# place FOLDER FILE...: moves the files into the folder, all or none. It replaces others only if $replace
+# is set.
 place() {
   to=$1
   shift
@@ -111,9 +110,8 @@ place() {
   cp -- "$@" "$placed" || wrong "$to cannot be written"
   mv -f -- "$placed"/* "$to"
 }
-# A folder of this run, $scratch, which is removed when it ends, as is what was not placed. Nothing else
-# is.
-# A tool that ends at the same moment may leave one more file there: then again.
+# make_scratch makes $scratch, a folder of this run. At the end it and files that were not placed are
+# removed, and nothing else. A tool that ends at the same moment may leave one more file: then again.
 remove_scratch() { rm -rf "$scratch" ${placed:+"$placed"}; }
 make_scratch() {
   trap '' INT TERM HUP  # not before the folder has its name

@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The shape factor K = J / (m R^2) of a body, measured (the paper's note 23). The body turns about a
-# fixed axis; a sensor reads its angle while a weight on a thread drives it (FALL), and while it
-# spins down freely without the weight (SPIN), which tells the friction of the bearing.
+# Measures the shape factor K = J / (m R^2) of a body (the paper's note 23). The body turns about a
+# fixed axis, and a sensor reads its angle. In the run FALL a weight on a thread drives the body; in the
+# run SPIN it spins down freely without the weight, which gives the friction of the bearing.
 #
 #   shape-factor.sh -m M -R R -r r -w W [-g G] FALL SPIN   prints K, for -K: 0.4991+-0.0018
 #   shape-factor.sh make FOLDER SEED                       makes such runs, with a known answer
 #   shape-factor.sh                                        makes runs of cylinder and shell, and uses
 #                                                          their K
 #
-#   -m M   mass of the body [kg]; each may have a standard uncertainty: 1.375+-0.001
+#   -m M   mass of the body [kg]; all values may have a standard uncertainty: 1.375+-0.001
 #   -R R   its radius [m]
 #   -r r   radius at which the thread is wound [m]
 #   -w W   mass of the weight [kg]
 #   -g G   gravity (9.81 m/s^2)
 #
-# A run has the columns Time and Angle, as Time (s) and Angle (rad) or Angle (deg), in any form that
-# rolling-columns(5) describes; FALL begins after the weight is released and ends before it lands.
+# A run has the columns Time (s) and Angle (rad), or Angle (deg), in any form of rolling-columns(5). FALL
+# begins after the weight is released and ends before it lands.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -34,6 +34,7 @@ for option in $chosen; do
     is_number "${number:-x}" || wrong "$option ${!given}: a number, or one like 1.375+-0.001"
   done
 done
+[ $# -gt 0 ] || [ -z "$m$R$r$w" ] || wrong 'these values are for your own runs: name FALL and SPIN'
 
 # The run as smooth reads it, in seconds and radians. The angle stands for a position: the arc of a
 # circle of 1 m. A film of the fall run backwards slows down.

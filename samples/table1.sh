@@ -1,12 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# table1.sh [FILE]...: Table 1 and the check of the dissipated energy, from raw runs alone: those of the
-# samples, or runs of your own on one mat. Beside each FILE, a run with positions, stands a scene of what
-# rolled there with its name, first.toml beside first.csv: mass, radius and shape-factor, and with
-# coefficient and exponent a law to compare with.
+# table1.sh [FILE]...: prints Table 1 and the check of the dissipated energy, from the raw runs of the
+# samples or from your own runs on one mat. A FILE is a run with positions. Beside it stands a scene with
+# its name, first.toml beside first.csv, with mass, radius and shape-factor. If the scene also has
+# coefficient and exponent, the table compares with that law.
 #
-# Exits with 1 when a recovered value is more than 4 standard uncertainties from that of the scene, or
-# an energy balance is open.
+# Exits with 1 if a value is more than 4 standard uncertainties from that of the scene, or if the energy
+# does not add up.
 set -eu
 export LC_ALL=C
 unset CDPATH

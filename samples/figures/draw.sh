@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash disable=SC2034
-# Options of every figure; all but -t are for runs of your own, a FILE or more:
+# Options of every figure; all but -t are for your own runs, a FILE or more:
 #
-#   -t svg|png|pdf     the form of the picture (svg), which goes to standard output
-#   -K K -R R -m M     shape factor, radius [m] and mass [kg] of what rolled, each one number, or one
-#                      for each run: 0.5,0.83; K and R may have an uncertainty: 0.5+-0.005
-#   -c x|v             draw the positions (x) or the velocities (v); x where there are both
-#   --use NAME=COLUMN  which column serves as t, x or v; may be repeated
-#   --run N            take this run of the files alone
-#   --law LAW          fit this law, of those that fitpower --report compares: d0+d2*v^2
+#   -t svg|png|pdf     form of the picture on standard output (svg)
+#   -K K -R R -m M     shape factor, radius [m] and mass [kg] of the body: one number, or one for each
+#                      run, 0.5,0.83; K and R may have an uncertainty, 0.5+-0.005
+#   -c x|v             draw the positions (x) or the velocities (v); if a file has both, x
+#   --use NAME=COLUMN  use this column as t, x or v; may be repeated
+#   --run N            use only this run of the files
+#   --law LAW          fit this law of fitpower(1), as d0+d2*v^2
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

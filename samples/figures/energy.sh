@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Where the energy of a roll goes: points, what its measured velocities store and what the fitted shift
-# dissipates at them; lines, the same for the fitted trajectory. The sum has to stay.
+# Draws where the energy of a roll goes. Points: the energy stored at the measured velocities, and the
+# energy that the fitted shift dissipates at them. Lines: the same for the fitted trajectory. If the law
+# is right, the sum is constant.
 #
-#   energy.sh [OPTION]... [FILE] >energy.svg      the cylinder on rubber, or a run of your own
+#   energy.sh [OPTION]... [FILE] >energy.svg      the cylinder on rubber, or your own run
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
-#   --seconds S        width of the window in which a parabola tells the velocity (0.84)
+#   --seconds S        window of the parabolas whose slope is the velocity (0.84)
 takes='--slope --seconds' seconds=0.84 needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 prepare CR

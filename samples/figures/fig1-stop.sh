@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 1 near the stop, where the bodies roll backwards for a moment before they rest. The law D(v)
-# alone cannot show it; a bulge that remembers a rolled length does: for the sample the one of which the
-# run was made, for a run of your own that of roll-back.sh, whose measurement stands below.
+# Draws Fig. 1 near the stop: the bodies roll backwards for a moment before they rest. A law D(v) alone
+# does not show this; a bulge with a memory of a rolled length does. For the sample the length is the one
+# that made the run; for your own run roll-back.sh measures it, and its result stands below.
 #
-#   fig1-stop.sh [OPTION]... [FILE] >fig1-stop.svg      the cylinder on rubber, or a run of your own
+#   fig1-stop.sh [OPTION]... [FILE] >fig1-stop.svg      the cylinder on rubber, or your own run
 . "$(dirname "$0")/draw.sh"
 prepare CR
 one_run

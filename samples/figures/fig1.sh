@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 1, v(t): differences of the sensor's positions, the same smoothed over a window, and the
-# trajectory that fits the positions, both of the free roll.
+# Draws Fig. 1, v(t): the differences of the positions, and of the free roll the differences smoothed
+# over a window and the trajectory that fits the positions.
 #
-#   fig1.sh [OPTION]... [FILE]... >fig1.svg      the four experiments, or runs of your own
+#   fig1.sh [OPTION]... [FILE]... >fig1.svg      the four experiments, or your own runs
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
 #   --seconds S        width of the window (0.44)

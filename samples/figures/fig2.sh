@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 2, the forces on the body at one instant, drawn to scale: the shift D is small beside the
-# radius, and F_H beside F_N, so that two panels show the neighbourhoods of P and of the axis some
-# forty times larger. The force of the mat, F_S, is less off the vertical than the line from P to the
-# axis is: it passes ahead of the axis, and slows translation and rotation alike.
+# Draws Fig. 2, the forces on the body at one instant, to scale. D is small beside the radius, and F_H
+# beside F_N; so two panels show the surroundings of P and of the axis about forty times larger. The
+# force of the mat, F_S, is closer to the vertical than the line from P to the axis. So it passes ahead
+# of the axis and slows both translation and rotation.
 #
-#   fig2.sh [OPTION]... [FILE] >fig2.svg      the cylinder on rubber, or a run of your own
+#   fig2.sh [OPTION]... [FILE] >fig2.svg      the cylinder on rubber, or your own run
 #
-#   --at T             the instant [s]; without it the beginning of the free roll
+#   --at T             the instant [s] (the beginning of the free roll)
 takes=--at needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 instant 0 F_N,F_H,F_S,F_G,tau_N,tau_H,p,L

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 3, the velocity of P as a point of the body at one instant, drawn to scale: P turns about the
-# lowest point, so it moves down with (D/R) v and forward with (1 - A) v only, for it lies A R below the
-# axis. Each panel is a part of the one before.
+# Draws Fig. 3, the velocity of P as a point of the body at one instant, to scale. P lies A R below the
+# axis and turns about the lowest point: it moves down with (D/R) v and forward with only (1 - A) v. Each
+# panel enlarges a part of the one before.
 #
-#   fig3.sh [OPTION]... [FILE] >fig3.svg      the cylinder on rubber, or a run of your own
+#   fig3.sh [OPTION]... [FILE] >fig3.svg      the cylinder on rubber, or your own run
 #
-#   --at T             the instant [s]; without it the beginning of the free roll
+#   --at T             the instant [s] (the beginning of the free roll)
 takes=--at
 . "$(dirname "$0")/draw.sh"
 instant 0 vP_H,vP_V

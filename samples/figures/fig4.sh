@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 4: D against v of the free rolls, the law fitted to it, and the 95 % band of the law. Up to four
-# runs of your own have their law in the picture, and one by itself the scatter of its points as bars.
-# Of a roll towards falling x the signs are turned.
+# Draws Fig. 4: D against v of the free rolls, the fitted laws, and their 95 % bands. For up to four of
+# your own runs the key has the laws. The note says by chi2 and p whether several runs agree. For one run
+# bars show the scatter of its points. A roll towards falling x is drawn with D and v positive.
 #
-#   fig4.sh [OPTION]... [FILE]... >fig4.svg      the four experiments, or runs of your own
+#   fig4.sh [OPTION]... [FILE]... >fig4.svg      the four experiments, or your own runs
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0); a roll that turns needs it
 #   --seconds S        width of the window over which velocities are smoothed (0.44)
@@ -63,6 +63,9 @@ bars=0
     printf 'K = %s, R = %s m' "${K//+-/ ± }" "${R//+-/ ± }"
     [ "$slope" = 0 ] || printf ', slope %s' "$slope"
     [ "$law" ] || [ "$count" -gt 4 ] || printf '; a is D at 1 m/s'
+    # Whether runs of one law a v^b agree.
+    [ "$count" = 1 ] || [ "$law" ] || fitpower -q --route fits --digits 3 fits | columns - chi2 dof p |
+      awk -F '\t' 'NF == 3 { printf "; χ²/dof = %s/%s, p = %.2g", $1, $2, $3 }' || true
     [ "$count" -le 16 ] || printf '; the key names the first 16 of %s runs' "$count"
     echo
   fi

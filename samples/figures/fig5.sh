@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fig. 5, the process diagram of a rolling body at one instant: what it stores, the currents of the
-# momenta that carry energy, where they fall and where they are pumped, and every arrow of energy as wide
-# as energy-ledger computes its power.
+# Draws Fig. 5, the process diagram of a rolling body at one instant: the stored quantities, the currents
+# of the momenta that carry energy, and where these fall and are pumped. The width of an arrow is its
+# power, from energy-ledger.
 #
 #   fig5.sh [OPTION]... [T] >fig5.svg         the cylinder on rubber, half a second after v = 0.5 m/s,
 #                                             or at another instant T [s]
-#   fig5.sh [OPTION]... FILE >fig5.svg        a run of your own
+#   fig5.sh [OPTION]... FILE >fig5.svg        your own run
 #
-#   --at T             the instant [s]; of a run of your own without it the beginning of the free roll
+#   --at T             the instant [s] (for your own run the beginning of the free roll)
 takes=--at needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"
 if [ "$own" = 1 ] && [ -z "$of_own" ]; then

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The residuals of a fit against time and against velocity: the first look at whether a law describes
-# a run. What is fitted are the positions of the free roll, or the velocities with -c v or where there
-# are no positions. Below stand, of up to three runs, the law, the rms of the fit beside the scatter that
-# half of the rows show, and how many rows were left out; rows that are more than five times the scatter
-# off are named by their times. Of a roll towards falling x the signs are turned.
+# Draws the residuals of a fit against time and against velocity: the first look at whether a law
+# describes a run. The fit is to the positions of the free roll; with -c v, or without positions, to the
+# velocities. Below the picture stand, for up to three runs, the law, the rms of the fit, the scatter of
+# the inner half of the residuals, the number of rows left out, and the times of rows that are off by more
+# than five times the scatter. A roll towards falling x is drawn with the signs turned.
 #
-#   residuals.sh [OPTION]... [FILE]... >residuals.svg      the cylinder on rubber, or runs of your own
+#   residuals.sh [OPTION]... [FILE]... >residuals.svg      the cylinder on rubber, or your own runs
 #
 #   --slope S          rise of the mat in metres a metre along growing x (0)
-#   --by N             what the law of run number N foretells of the others, in place of their own laws,
-#                      with its 95 % limits; v0 and x0 are those of each run
+#   --by N             use the law of run number N for all runs, with its 95 % limits; v0 and x0 are those
+#                      of each run
 takes='--slope --by' by=''
 . "$(dirname "$0")/draw.sh"
 prepare CR

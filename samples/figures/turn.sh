@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A ball that is sent up an incline of 2 cm a metre, turns and comes back: its speed and, below,
-# where its energy is. Points, what its measured velocities store and what the fitted shift
-# dissipates at them; lines, the same for the fitted trajectory. The sum has to stay, through the
-# turning point too.
+# Draws a ball that rolls up an incline of 2 cm a metre and back: its speed and, below, where its energy
+# is. Points: the energy stored at the measured velocities, and the energy that the fitted shift
+# dissipates at them. Lines: the same for the fitted trajectory. If the law is right, the sum is constant,
+# through the turning point too.
 #
-#   turn.sh [OPTION]... [FILE] >turn.svg      this ball, or a run of your own
+#   turn.sh [OPTION]... [FILE] >turn.svg      this ball, or your own run
 #
 #   --slope S          rise of the mat in metres a metre along growing x (fit: found by the fit)
-#   --seconds S        width of the window in which a parabola tells the velocity (0.84)
+#   --seconds S        window of the parabolas whose slope is the velocity (0.84)
 takes='--slope --seconds' seconds=0.84 slope=fit needs='-K 0.4 -R 0.0127 -m 0.067'
 . "$(dirname "$0")/draw.sh"
 if [ "$own" = 0 ]; then

@@ -1,21 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# lab.sh [OPTION]... -K K -R R FILE|FOLDER...: the free rolls of all runs, the law of each, the law of
-# all and a figure. A file may hold several runs; of a folder the files .csv, .tsv and .txt count.
+# lab.sh [OPTION]... -K K -R R FILE|FOLDER...: finds the free rolls of all runs, the law of each run, the
+# joint law, and draws a figure. A file may hold several runs. In a folder the files .csv, .tsv and .txt
+# are read.
 #
 #   -K, -R        shape factor and radius [m], one or one for each run in order: 0.5,0.83
 #   -c x|v        fit positions (x) or velocities (v)
-#   --slope S     slope of the mat, or fit: from runs in both directions
-#   --use NAME=COLUMN  which column serves as t, x or v; may be repeated
-#   -o FOLDER     where the results go (results): table.txt, joint.txt, fig4.svg and others
-#   --check       exit with 1 unless each run has a law a v^b, all have one law, and, with -m, the
-#                 energy and the momenta of each balance within 5 %: a good folder fails once in a
-#                 hundred times, however many runs it has
+#   --slope S     slope of the mat; fit: find it, from runs in both directions
+#   --use NAME=COLUMN  use this column as t, x or v; may be repeated
+#   -o FOLDER     folder of the results (results): table.txt, joint.txt, fig4.svg and others
+#   --check       exit with 1 unless each run has a law a v^b, all runs agree, and, with -m, the energy
+#                 and the momenta of each run add up within 5 %; 1 % of good folders fail, however many
+#                 runs they have
 #   -m M          mass [kg], one or one for each run
 #   --accept RUN  do not check this run by itself; may be repeated
 #
-# A file that cannot be used is named and passed over. Results replace those of an earlier run when
-# all of them are made. A folder that lab.sh did not make is not touched.
+# lab.sh names a file that it cannot use, and goes on. It replaces earlier results when all new ones are
+# ready. It does not touch a folder that it did not make.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# live.sh -K K -R R [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body
-# rolls, again with every row. SOURCE is the device of a sensor (a serial port), a file that
-# grows, or - for standard input, with lines of time and velocity (-c v, the default) or of time and
-# position (-c x). TERMINAL is one of gnuplot's: without -T qt or x11 on a graphic screen, else
-# dumb, which draws with letters. The picture is (WIDTH - 1)/2 + 1 rows behind the sensor, one
-# more with -c x.
+# live.sh -K K -R R [-w WIDTH] [-c x|v] [-T TERMINAL] SOURCE: draws D against v while the body rolls, anew
+# with every row. SOURCE is the device of a sensor (a serial port), a file that grows, or - for standard
+# input. Its lines have time and velocity (-c v, the default) or time and position (-c x). TERMINAL is one
+# of gnuplot's (qt or x11 on a graphic screen, else dumb, which draws with letters). The picture is
+# (WIDTH - 1)/2 + 1 rows behind the sensor, one more with -c x.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
