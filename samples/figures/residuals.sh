@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Draws the residuals of a fit against time and against velocity: the first look at whether a law
 # describes a run. The fit is to the positions of the free roll; with -c v, or without positions, to the
-# velocities. Below the picture stand, for up to three runs, the law, the rms of the fit, the scatter of
-# the inner half of the residuals, the number of rows left out, and the times of rows that are off by more
-# than five times the scatter. A roll towards falling x is drawn with the signs turned.
+# velocities. Below the picture stand, for up to three runs, the law, the rms of the fit, the scatter (from
+# the median of |residual|), the number of rows left out, and the times of rows that are off by more than
+# five times the scatter. A roll towards falling x is drawn with the signs turned.
 #
 #   residuals.sh [OPTION]... [FILE]... >residuals.svg      the cylinder on rubber, or your own runs
 #

@@ -301,7 +301,7 @@ missing=$(comm -23 "$scratch/in-table" "$scratch/in-page")
 # The README shows Fig. 4 and the picture of its first example as this gnuplot, if it is the same
 # one, draws them today.
 drawn='samples/figures/fig4.sh -K 0.5 -R 0.04 samples/CR.csv'
-grep -qF "\$ $drawn >run.svg" README.md || complain 'README: no run.svg'
+grep -qF "\`$drawn >run.svg\`" README.md || complain 'README: no run.svg'
 $drawn 2>/dev/null >"$scratch/run.svg"
 for picture in fig4 run; do
   drawn_by=$(grep -o 'GNUPLOT [0-9.]*' "samples/$picture.svg")
