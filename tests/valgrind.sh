@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The suite under valgrind, but for the tests of options, limits and the house: no byte used that nobody wrote, none lost. In a
+# The suite under valgrind, but for the tests of options, limits and rules: no byte used that nobody wrote, none lost. In a
 # copy whose bin/ holds, for each tool, a script that runs it so. Only what valgrind finds counts: under it a long double, which
 # some tests compare with, is no longer than a double, and limits of time or memory may be exceeded. Some twenty minutes.
 set -u
