@@ -123,14 +123,13 @@ figure:target .back { display: inline-block; padding: .5rem 0; }
 <body>
 <h1>A cylinder and a shell roll to rest on a soft mat</h1>
 <p>A rigid body on a rigid floor would roll for ever. On a mat it does not: the mat bulges in front
-of the body and pushes back at a point P, a distance <i>D</i> ahead of the lowest point. How
-<i>D</i> depends on the velocity is the law of the mat, and where the energy goes follows from it.
-After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular
+of the body and pushes back at a point P, a distance <i>D</i> ahead of the lowest point. The law of
+the mat says how <i>D</i> depends on the velocity; it also determines where the energy goes. After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular
 Momentum, Energy, and Dissipation</cite>; the numbers of the equations are theirs.</p>
 <p>Four experiments: a solid cylinder C and a cylindrical shell S, on felt and on a rubber mat,
 followed by a sonar. <b>The runs here are not the authors’ measurements:</b>
 <code>simulate</code> made them from the paper’s values, with the noise, the rounding and the lost
-echoes of such a sensor. So the answer is known, and one can see how well it is found.</p>
+echoes of such a sensor. So the answer is known, and you can see how well the fits find it.</p>
 
 <h2>The motion</h2>
 HTML
@@ -144,10 +143,10 @@ HTML
 drawn fig1-stop "Fig. 1, the stop: a brief roll backwards" <<'HTML'
 The cylinder on rubber near its stop. The paper reports that the bodies roll backwards for
 a moment before they rest. A shift that depends on the velocity alone cannot do that: it vanishes
-with the velocity. One that needs a rolled length of half a millimetre to build up and to vanish
-does, for at <i>v</i> = 0 the bulge is still there and pushes back. This is beyond the paper. The
-sonar, with its steps of a millimetre, only just sees it: below the picture stands what
-<code>samples/roll-back.sh</code> measures.
+with the velocity. If the shift needs half a millimetre of rolling to build up and to vanish, the body
+rolls back: at <i>v</i> = 0 the bulge is still there and pushes. This is not in the paper. The sonar
+has steps of a millimetre and only just sees it; below the picture is the result of
+<code>samples/roll-back.sh</code>.
 HTML
 cat <<'HTML'
 <h2>The forces, and the point where they act</h2>
@@ -162,21 +161,19 @@ inertia <i>K m R</i>²,</p>
 τ<sub>N</sub> = −<i>D F</i><sub>N</sub> <span>(7)</span></p>
 HTML
 drawn fig2 "Fig. 2: the forces, to scale" <<'HTML'
-All lengths are in proportion, and so are all forces but the two whose arrows have a break. The shift
-is so small beside the radius that
-it takes the enlarged panels to see it; the horizontal force, too, is small beside the weight. Both
-make the force <i>F</i><sub>S</sub> of the mat. It is less off the vertical than the line from P to the
-axis is, and so its line passes ahead of the axis: one force slows the translation and the rotation. The
-torque of <i>F</i><sub>H</sub> undoes a part of that of <i>F</i><sub>N</sub>; what is left slows the
-rotation. (The outline of the mat is only sketched.) <i>To discuss:</i> where would P
-have to be if the body sped up?
+All lengths are in proportion, and so are all forces except the two whose arrows have a break. The shift
+is so small beside the radius that only the enlarged panels show it; the horizontal force, too, is small
+beside the weight. <i>F</i><sub>N</sub> and <i>F</i><sub>H</sub> together are the force
+<i>F</i><sub>S</sub> of the mat. It is closer to the vertical than the line from P to the axis, so it
+passes ahead of the axis: one force slows the translation and the rotation. The torque of
+<i>F</i><sub>H</sub> cancels a part of that of <i>F</i><sub>N</sub>; the rest slows the rotation. (The
+outline of the mat is only sketched.) <i>To discuss:</i> where would P have to be if the body sped up?
 HTML
 drawn fig3 "Fig. 3: the velocity of P, to scale" <<'HTML'
-As a point of the rolling body, P, which lies <i>A R</i> below the axis, turns about the lowest point.
-It moves down into the mat with
-(<i>D</i>/<i>R</i>) <i>v</i>, Eq. 20, and forward with (1 − <i>A</i>) <i>v</i> only, Eq. 16: a small
-quantity of the first and one of the second order, so that each needs a panel of its own. <i>To
-discuss:</i> which of the two carries the energy into the mat?
+P lies <i>A R</i> below the axis. As a point of the rolling body it turns about the lowest point. It
+moves down into the mat with (<i>D</i>/<i>R</i>) <i>v</i>, Eq. 20, and forward with only
+(1 − <i>A</i>) <i>v</i>, Eq. 16. The first is small of first order, the second of second order, so each
+has its own panel. <i>To discuss:</i> which of the two carries the energy into the mat?
 HTML
 cat <<'HTML'
 <h2>The law of the mat</h2>
@@ -186,7 +183,7 @@ Each point is <i>D</i> = −(1 + <i>K</i>) <i>R</i> d<i>v</i>/d<i>t</i> / <i>g</
 smoothed velocities; lines are the power laws fitted to them, bands the 95 % confidence of each
 line. On felt <i>D</i> is small and hardly depends on the velocity, and the lines of the two bodies
 lie on each other; on rubber it grows with the velocity. The points of one body are not independent:
-each reading is in eleven means, and the fit takes that into account.
+each reading is in eleven means, and the fit allows for that.
 HTML
 drawn residuals "The residuals of a fit" <<'HTML'
 The cylinder on rubber: the residuals, measured positions minus those that the law predicts, against
@@ -196,11 +193,12 @@ still on the body at the beginning, or the mat had a hole?
 HTML
 cat <<'HTML'
 <div class="section"><h3>Table 1: <i>D</i> = <i>a v<sup>b</sup></i></h3>
-<p>By three routes: through the points of Fig. 4; by the motion of Fig. 1 fitted to the velocities that the
-sensor tells, as the authors did; and by the motion fitted to its positions, which is the most precise. <i>a</i> is the shift at 1 m/s. The first uncertainty is that of the noise, the second
-that of <i>K</i> and <i>R</i>, which no further roll of the same body makes smaller. The columns “off”
-tell by how many standard uncertainties of the noise a value differs from the paper’s, from which the runs
-were made. <code>make table1</code></p>
+<p>There are three routes: the points of Fig. 4; the motion of Fig. 1 fitted to the velocities of the
+sensor, as the authors did; and the motion fitted to its positions, the most precise route. <i>a</i> is the
+shift at 1 m/s. The first uncertainty comes from the noise, the second from <i>K</i> and <i>R</i>; more
+rolls of the same body do not make the second smaller. The runs were simulated with the paper’s values. The
+columns “off” have the differences from these values, in standard uncertainties of the noise.
+<code>make table1</code></p>
 HTML
 table "Table 1" "$scratch/table1"
 echo '</div><div class="section"><h3>What the paper expects</h3>'
@@ -209,7 +207,7 @@ cat <<'HTML'
 </div><div class="section"><h3>Is the mat level?</h3>
 <p>No floor is level to a millimetre in a metre, and on felt that is 7 % of the shift. A roll in one
 direction hides it: the residuals of its fit are as good as on a level mat. Two rolls in opposite
-directions tell the slope from the law. <i>To discuss:</i> the paper’s bodies all rolled towards the
+directions separate the slope from the law. <i>To discuss:</i> the paper’s bodies all rolled towards the
 sensor. What does a slope do to the difference of their laws?</p>
 HTML
 table "A mat that is not level" "$scratch/table1"
@@ -218,29 +216,29 @@ cat <<'HTML'
 <h2>Where the energy goes</h2>
 HTML
 drawn energy "Energy against time" <<'HTML'
-The cylinder on rubber. What is stored is computed from the measured velocities alone (points), what
-is dissipated from the fitted shift, that is from the forces; lines are the same for the fitted
-motion. Their sum stays level only if the shift is right. The rotation of the cylinder has half the
-energy of its translation, at any speed: that is its <i>K</i>.
+The cylinder on rubber. Points: the stored energy comes from the measured velocities alone, the
+dissipated energy from the fitted shift, that is, from the forces. Lines are the same for the fitted
+motion. Their sum is constant only if the shift is right. At any speed the rotation of the cylinder has
+half the energy of its translation: that is its <i>K</i>.
 HTML
 drawn turn "Up an incline, and back" <<'HTML'
-A ball that is sent up 2 cm a metre, turns and comes back. Rolling resistance opposes the motion both
-ways; gravity does not: one such run separates the slope from the law. It comes back slower than it went, and what
-is missing has been dissipated. <i>To discuss:</i> why is the line of the velocity steeper on the way
+A ball rolls up 2 cm a metre, turns and comes back. Rolling resistance opposes the motion both
+ways; gravity does not: one such run separates the slope from the law. The ball comes back slower than it
+went; the missing energy has been dissipated. <i>To discuss:</i> why is the line of the velocity steeper on the way
 up?
 HTML
 cat <<'HTML'
 <div class="section"><h3>The check</h3>
-<p>The measured loss of each run beside what the shift of Table 1 dissipates; the closure is their
-relative difference (Eq. 23), with the uncertainty that the measured speeds at both ends give it: the
-scatter of a hundred rolls under the law with the noise of the run. The imbalance is the
-largest difference of the two at any moment of the run.</p>
+<p>The measured loss of each run stands beside the energy that the shift of Table 1 dissipates. The closure is
+their relative difference (Eq. 23). Its uncertainty comes from the measured speeds at both ends: it is the
+scatter of a hundred rolls under the law with the noise of the run. The imbalance is the largest difference
+of the two at any moment of the run.</p>
 HTML
 table "Energy" "$scratch/table1"
 cat <<'HTML'
 </div><div class="section">
-<p>No such balance of one body can show that <i>K</i> is wrong: it cancels. What can is the law of the
-other body on the same mat. On felt it closes; on rubber it is off by 8 and 12 %, as the paper’s own
+<p>The balance of one body cannot show that <i>K</i> is wrong: it cancels. The law of the other body on
+the same mat can. On felt it closes; on rubber it is off by 8 and 12 %, as the paper’s own
 values for the two bodies are.</p>
 HTML
 table "The same with" "$scratch/table1"
@@ -250,23 +248,21 @@ Horizontal momentum flows from the body to the mat and falls from the speed <i>v
 that of P. The power it releases, <i>P</i><sub>T1</sub>, pumps angular momentum into the body,
 <i>P</i><sub>R1</sub>. Angular momentum leaves again, falls from ω to nothing and releases
 <i>P</i><sub>R2</sub>, which pumps vertical momentum from P, moving down, to the body at rest in
-height, <i>P</i><sub>T2</sub>; gravity takes it off there. With these two momenta the energy currents
+height, <i>P</i><sub>T2</sub>; gravity removes it there. With these two momenta the energy currents
 <i>I</i><sub>E1</sub> and <i>I</i><sub>E2</sub> reach the mat, where they fall to nothing and release
-<i>P</i><sub>T3</sub> and <i>P</i><sub>T4</sub>: everything is dissipated. Above stand what the body stores
-and how much of each momentum flows. The arrows are as wide as
-<code>energy-ledger</code> computes their powers; what leaves the body or is released counts as
-positive. <i>To discuss:</i> nearly all of the energy goes through the rotation, although two thirds
+<i>P</i><sub>T3</sub> and <i>P</i><sub>T4</sub>: everything is dissipated. The numbers at the top are the
+stored quantities and the currents of the momenta. The width of an arrow is its power, from
+<code>energy-ledger</code>; flows out of the body and released powers are positive. <i>To discuss:</i> nearly all of the energy goes through the rotation, although two thirds
 of it are translational. How?
 HTML
 echo '<h2>How exact, in what time</h2>'
 if [ -n "$measured" ]; then
   cat <<'HTML'
-<p>The error of the velocity against the time that a sample takes, for every method and a row of
-tolerances: to the lower left is better. Points at 10<sup>−17</sup> do not differ from the
-reference. Filled: the methods of <code>simulate</code>, which locate the stop; open and dashed: the
-solvers of GSL, and of CVODE where it is installed, used in the ordinary way, as far as they came
-through; “odd” with a law that goes on to negative velocities. Of one run on one machine: the ratios
-count.</p>
+<p>The error of the velocity against the time for a sample, for every method and several
+tolerances: lower left is better. Points at 10<sup>−17</sup> do not differ from the
+reference. Filled: the methods of <code>simulate</code>, which locate the stop. Open and dashed: the
+solvers of GSL, and of CVODE if it is installed, used in the ordinary way, if they reached the end; “odd”
+has a law that continues to negative velocities. The times are of one machine: the ratios count.</p>
 HTML
   while read -r name title; do
     [ -r "$measured/$name.svg" ] || continue
@@ -280,8 +276,8 @@ LIST
 else
   cat <<'HTML'
 <p>The methods of <code>simulate</code> on the cylinder on rubber: the largest error of the velocity
-beside the closed form, the error of the time of the stop, and the time a sample takes. Of one run
-on one machine: the ratios count. <code>simulate --scene samples/CR.toml --report</code>. All
+beside the closed form, the error of the time of the stop, and the time for a sample. The times are of
+one machine: the ratios count. <code>simulate --scene samples/CR.toml --report</code>. All
 methods on many problems, as figures: <code>make work-precision</code>, some minutes, and then
 <code>make report</code>.</p>
 HTML
@@ -295,14 +291,14 @@ fi
 # raw FILE: as it is
 raw() { echo "<div class=\"wide\"><pre>$(sed 's/&/\&amp;/g; s/</\&lt;/g' "$1")</pre></div>"; }
 if [ -r tools.txt ]; then
-  echo '<p>What each tool takes to start on ten rows, in time of one processor, and the libraries that it
-needs besides those of C++: nothing is linked that is not called. <code>make work-precision</code></p>'
+  echo '<p>The processor time of each tool for ten rows, and the libraries that it needs besides those of C++:
+nothing is linked that is not called. <code>make work-precision</code></p>'
   raw tools.txt
 fi
 cat <<'HTML'
 <h2>How often the intervals hold</h2>
-<p>An uncertainty is right if the interval of 1.96 of them holds the truth in 95 of 100 runs. Only where
-the truth is known can one count that: in simulated runs. <code>make coverage</code></p>
+<p>Uncertainties are right if intervals of ±1.96 of them hold the truth in 95 of 100 runs. Simulated runs
+show this, since their truth is known. <code>make coverage</code></p>
 HTML
 raw coverage.txt
 cat <<HTML
@@ -313,8 +309,7 @@ cat <<HTML
 <code>fitpower</code>, <code>simulate</code> and <code>energy-ledger</code>, which read and write
 plain columns and are joined by pipes. The pipeline of each figure is the script
 of its name in <code>samples/figures</code>.$([ ! -e "$figures/man/index.html" ] ||
-  echo ' What each tool does, with all options, says its <a href="man/index.html">manual
-page</a>.')</p>
+  echo ' The <a href="man/index.html">manual pages</a> explain each tool and all options.')</p>
 </body>
 </html>
 HTML

@@ -193,8 +193,8 @@ scatter() {  # RUN
 }
 plus() { awk -v x="$1" -v y="$2" 'BEGIN { printf "%.17g", x + y }'; }
 echo
-echo "Energy: measured loss against what the fitted shift dissipates" \
-  "(within $tolerance at every moment); closure: relative energy error, imbalance: the largest"
+echo "Energy: the measured loss beside the energy that the fitted shift dissipates" \
+  "(within $tolerance at every moment); closure: relative energy error; imbalance: the largest"
 printf "  %-${wide}s %-20s %-12s %-16s %-20s %s\n" \
   run "E at the start [J]" "lost [J]" "dissipated [J]" "closure, noise" imbalance
 for i in $(seq $count); do
@@ -302,8 +302,8 @@ for mat in "CF felt" "CR rubber"; do
 done
 echo
 cat <<'TEXT'
-A slope S acts like R S more shift on the way up and R S less on the way down, here 0.04 mm. One way by
-itself hides that: its residuals are as good as on a level mat. Only rolls in both directions separate
-the slope from the law.
+A slope S makes the shift seem larger by R S on the way up and smaller by R S on the way down, here 0.04 mm.
+Rolls in one direction hide that: their residuals are as good as on a level mat. Only rolls in both
+directions separate the slope from the law.
 TEXT
 exit $failed

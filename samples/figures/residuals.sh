@@ -52,7 +52,7 @@ for i in $(seq "$count"); do
           rows, readings, (outliers == 0 ? "no outlier" : outliers == 1 ? "1 outlier" : outliers " outliers") }'
   } >>note
 done
-[ -z "$by" ] || printf 'dotted: 95 %% of what the law of run %s foretells\n' "$by" >>note
+[ -z "$by" ] || printf 'dotted: 95 %% limits of the law of run %s\n' "$by" >>note
 printf 'K = %s,  R = %s m' "${K//+-/ ± }" "${R//+-/ ± }" >>note
 [ "$slope" = 0 ] || printf ',  slope %s' "${slope//+-/ ± }" >>note
 lines=$(($(wc -l <note) + 1))
