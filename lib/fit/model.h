@@ -37,8 +37,8 @@
 
 namespace rolling {
 
-/// The numbers of a roll: v0 and x0, which each run has for itself, the coefficients of the law and
-/// the numbers of the scene, of which the wind is none under a law without the drag of the air.
+/// The numbers of a roll: v0 and x0 of each run, the coefficients of the law and the numbers of the
+/// scene. The wind is not one of them under a law without the drag of the air.
 /// Those that are not fixed are the elements of theta, each in a unit that makes it of order one:
 /// for each run v0 and x0, then the shared ones. Of a v^b they are ln D at the unit of speed, in
 /// place of a, which is nearly collinear with b, and b. v0 is the speed along the direction of

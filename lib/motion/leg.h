@@ -83,8 +83,8 @@ class Leg {
 
     bool balanced() const { return imbalance <= 20 * std::numeric_limits<double>::epsilon(); }
   };
-  /// A piece of the way from r on. Its variable is z = 0 to width; where D = R at its end, A has a
-  /// root there, of which r - r(end) = (z - width)^2/width leaves nothing in the integrands.
+  /// A piece of the way from r on. Its variable is z = 0 to width. If D = R at its end, A has a
+  /// root there; r - r(end) = (z - width)^2/width removes it from the integrands.
   struct Panel {
     double r, width;
     bool to_radius;

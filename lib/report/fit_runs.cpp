@@ -18,7 +18,7 @@ namespace {
 void set_filters(Tool& tool, const Reader& in, Route route, Run& run) {
   History history = history_of(in.history(), run.t);
   if (in.renames() && !history.filters.empty())
-    history = {.doubt = "--use takes other columns than its `##` lines speak of"};
+    history = {.doubt = "--use takes other columns than its `##` lines name"};
   if (run.t.empty() && change_numbers(history_of(in.history(), std::array{0.0}).filters))
     history.doubt = "it has no times, and without them its `##` lines say nothing";
   history = give_filters(std::move(history), run, columns_of(route));

@@ -39,7 +39,7 @@ struct FitRows {
     const double log_a = a.sigma / a.value;
     const Symmetric C{log_a * log_a, corr * log_a * b.sigma, b.sigma * b.sigma};
     if (!C.inverse().is_finite() || !(C.aa * C.bb >= C.ab * C.ab))
-      fail("corr = {}: its digits do not tell a from b: write the rows with more", corr);
+      fail("corr = {} has too few digits to separate a from b: write the rows with more", corr);
     laws.push_back({laws.size(), {std::log(a.value), b.value}, C, known_errors});
     runs.emplace_back().name = std::move(name);
   }
@@ -97,8 +97,9 @@ std::vector<CommonError> take_common(FitRows& rows) {
       C.aa -= log_a * log_a;
       if (!rows.a_fixed && !(C.aa > 0 && C.aa * C.bb >= C.ab * C.ab))
         fail(
-            "row {}: its sigma_a is less than what the uncertainty of {} alone makes it: give -K "
-            "and -R as for the fits of the rows",
+            "row {}: its sigma_a is smaller than the uncertainty of {} alone makes it: give the -K "
+            "and "
+            "-R of its fit",
             rows.runs[i].name, number.name);
     }
     for (auto& [value, common] : by_value) all.push_back(std::move(common));

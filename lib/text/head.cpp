@@ -118,7 +118,7 @@ struct HeadLine {
   bool has_names() const { return !names.columns.empty(); }
 };
 
-/// The columns, of which one without a name is c and its number.
+/// The columns; the name of one without a name is c and its number.
 std::vector<Column> with_names(std::vector<Column> columns) {
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name.empty()) columns[i].name = fmt::format("c{}", i + 1);

@@ -52,7 +52,7 @@ void refuse_unclear(const std::vector<Column>& line, bool labelled) {
   if (times < 2) return;
   for (const Column& c : line)
     if (is_known(c) && (labelled ? c.run.empty() && c.name != "t" : count[c.name] < times))
-      fail("of {} columns t, which one {} goes with is not clear: say --use t=N, by number", times,
+      fail("it is not clear which of {} columns t belongs to {}: say --use t=N, by number", times,
            c.name);
 }
 

@@ -182,7 +182,7 @@ for n in 1 2; do
 done
 samples/figures/residuals.sh -K 0.5 -R 0.04 --by 1 "$scratch"/foretold[12].csv >"$scratch/by.svg" 2>/dev/null ||
   complain 'residuals --by'
-grep -q 'dotted: 95 % of what the law of run 1 foretells' "$scratch/by.svg" || complain 'residuals --by has no limits'
+grep -q 'dotted: 95 % limits of the law of run 1' "$scratch/by.svg" || complain 'residuals --by has no limits'
 [ "$(grep -c "stroke-dasharray" "$scratch/by.svg")" -ge 4 ] || complain 'residuals --by: not four limits'
 for wrong_by in '--by 3' '--by x' '--law d0 --by 1'; do
   # shellcheck disable=SC2086
