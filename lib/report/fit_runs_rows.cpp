@@ -52,7 +52,7 @@ void warn_of_same_rows(Tool& tool, const FitRows& rows) {
     const Symmetric& C = row.covariance;
     if (!different.insert({row.law.a, row.law.b, C.aa, C.ab, C.bb}).second)
       tool.object(rows.runs[row.run].name,
-                  "its numbers are those of a row before it: leave copies out");
+                  "its numbers are those of an earlier row: leave copies out");
   }
 }
 

@@ -52,7 +52,7 @@ never 'held fixed|both held|\bbe held\b|\bis held\b|are held\b' fixed
 never 'held the truth|\bcovered\b' 'coverage probability'
 never '\b(is|are|was|were|be) told\b' 'who says what'
 never ', of which\b' 'a sentence of its own'
-never 'runs that do not are told|by fainter signs|is (not )?adequate|errors allow for that' 'what was seen and what to do'
+never 'runs that do not are told|no body rolls so|go on as the others|are all of these rows|of negative v|by fainter signs|is (not )?adequate|errors allow for that' 'what was seen and what to do'
 
 # The same words in names and comments of the code, and in the scripts of samples.
 grep -nE '' -r lib cmd samples --include='*.h' --include='*.cpp' --include='*.sh' --include='*.awk' --include='*.gp' >"$scratch/texts"
