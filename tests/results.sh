@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# results.sh GOAL...: runs these goals of make, and puts the last line of each suite that ran, the lines and
-# branches that were reached, the mutants that were killed and those that lived into tests/results.txt, in
-# the place of what this system had there.
+# results.sh GOAL...: runs these goals of make, and writes a line for each into tests/results.txt, in place
+# of the line of this goal and system: the last line of a suite, the lines and branches that were reached,
+# the mutants that were killed and those that lived; for a measurement, that it ended, and how long it took.
 set -u
 export LC_ALL=C
 unset CDPATH
@@ -13,10 +13,12 @@ system+=", $(uname -m), $(${CXX:-g++} --version | head -n 1)"
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 for goal; do
+  SECONDS=0
   make "$goal" >"$scratch/said" 2>&1
   status=$?
   last=$(sed -nE '/^[0-9]+ passed, [0-9]+ failed|^[0-9]+ of [0-9]+ killed|^(lines|branches): /p
     s/^  (survived: )/\1/p' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
+  last=${last:-done in $SECONDS s}
   [ $status = 0 ] || { wrong=1 && tail -n 20 "$scratch/said" && last+=" (make: exit status $status)"; }
   version=$(bin/smooth --version | cut -d ' ' -f 3)
   touch tests/results.txt

@@ -188,9 +188,9 @@ coverage: build/coverage build/bench/troubles
 	  build/coverage $(call short,2); build/bench/troubles $(call short,2); } | \
 	  tee $(call short,build,samples)/coverage.txt
 
-# The last lines of whole suites on this system, the mutants that lived and what the tests reach, kept in
-# tests/results.txt; hours.
-RESULTS ?= check check-clang check-libcxx check-arm64 sanitize coverage-lines mutate
+# What came out of each goal on this system, kept in tests/results.txt; hours.
+RESULTS ?= check check-long check-clang check-libcxx check-arm64 sanitize fuzz lint coverage-lines mutate \
+           coverage bad-runs lab-rates extremes work-precision work-precision-signal peers bench
 results:
 	@tests/results.sh $(RESULTS)
 
