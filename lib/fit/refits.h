@@ -15,7 +15,9 @@ namespace rolling {
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean
 /// of all, weighted by the inverse covariances of the runs' own errors. Its p is that of
-/// the law with which all agree best. Returns nothing where fewer than two runs determine a law by
+/// the law with which all agree best. Runs of which the sums of squares say so agree, too: where
+/// the model bends over the errors of a run, the covariance of its law is no measure of distances.
+/// Returns nothing where fewer than two runs determine a law by
 /// themselves, or where a and b are fixed.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
@@ -50,7 +52,8 @@ std::vector<ErrorShare> shares_of_inputs(Route, const std::vector<Run>&, const F
 /// its interval, and all parameters are fitted again. If the model is linear, the sum of squares
 /// rises there by 3.84 variances of white noise. If it does not, within the factor levels::rise,
 /// the interval of the profile stands in its place: up to where the sum of squares has risen so far
-/// (Venzon and Moolgavkar 1988, Appl. Stat. 37, 87). Only numbers are visited whose interval is in
+/// (Venzon and Moolgavkar 1988, Appl. Stat. 37, 87), or without an end if it has not within ten
+/// times the linear interval. Only numbers are visited whose interval is in
 /// doubt, since a few rows bend by more than levels::bent over it.
 std::vector<Interval> intervals_not_visited(const Fitted&, const Uncertainty& noise,
                                             const FitOptions&);

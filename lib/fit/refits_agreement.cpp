@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/refits.h"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,6 +161,34 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<Run>&
   return own;
 }
 
+/// Compares the runs by their readings: by how much the sum of squares of a run is larger under the
+/// common law than under its own, in units of the variance of its noise. If the model bends over
+/// the errors of a run, as that of d0 + a v^b does in a single roll, the covariance of its own law
+/// is no measure of its distance to another one; this sum is. Runs that one of the two measures
+/// finds to agree do agree.
+void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitted>>& own,
+                         const Fitted& joint) {
+  const auto residuals = by_run(joint.minimum.f, joint.system().runs);
+  double ratio = 0;
+  double p = 1;
+  std::size_t runs = 0;
+  std::size_t parameters = 0;
+  for (std::size_t r = 0; r < own.size(); ++r) {
+    if (!own[r] || own[r]->degrees_left() == 0) continue;
+    const Minimum& alone = own[r]->minimum;
+    if (residuals[r].size() != alone.f.size()) return;
+    const auto freedom = static_cast<double>(own[r]->degrees_left());
+    const double rise = std::max(dot(residuals[r], residuals[r]) - alone.rss, 0.0);
+    parameters = own[r]->system().shared;
+    ratio += ratio_of_run(rise / alone.rss * freedom, freedom, parameters);
+    p = std::min(p, p_of_run(rise / alone.rss * freedom, freedom, parameters));
+    ++runs;
+  }
+  const std::size_t dof = parameters * (runs - 1) - joint.scene.size();
+  found.p = std::max(found.p, gsl_cdf_chisq_Q(ratio, static_cast<double>(dof)));
+  found.p_of_run = std::max(found.p_of_run, std::min(1.0, p * static_cast<double>(runs)));
+}
+
 }  // namespace
 
 std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
@@ -169,7 +199,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
   const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
   const bool b_held = options.b || joint.coefficients.size() < 2;
-  const Agreement found = compare(laws, !options.a + !b_held, joint.scene.size());
+  Agreement found = compare(laws, !options.a + !b_held, joint.scene.size());
+  if (joint.is_roll()) compare_by_readings(found, own, joint);
   if (found.agree()) return found;
   errors = uncertainty_of(around_own(joint, own));
   // The bias of logarithms comes from the noise too.

@@ -122,7 +122,7 @@ class Profile {
   System held(double value) const {
     System system = fit_.system();
     ++system.runs.front();
-    system.rounds = 0;  // a fit beside the minimum is near its start, or is no part of the profile
+    system.rough = true;
     system.evaluate = [this, value, rows = fit_.system()](const std::vector<double>& theta,
                                                           const TakeRows& take) {
       rows.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
@@ -170,18 +170,21 @@ bool as_expected(const Profile& profile, const Profile::Visit& at) {
 }
 
 /// The change of the number, in the direction of this first visit, at which the sum of squares has
-/// risen by that of 95 %; infinite if it does not rise so far.
+/// risen by that of 95 %; infinite if it does not rise so far within ten times the linear interval.
 double end_of_interval(const Profile& profile, Profile::Visit far) {
   constexpr int most = 10;
   const auto is_end = [](const Profile::Visit& at) {
     return std::abs(at.distance - normal) < 0.05;
   };
   Profile::Visit near = profile.start();
+  const double widest = 10 * normal * profile.sigma();
   for (int i = 0; i < most && !is_end(far); ++i) {
+    if (far.distance < normal && std::abs(far.to) > widest) break;
     double to = near.to == 0 ? far.to / 8 : (near.to + far.to) / 2;
     const bool beyond = far.distance > normal;
     if (!beyond) {
       to = far.to * std::clamp(normal / far.distance, 1.2, 4.0);
+      if (far.distance < normal / 4) to = std::copysign(1.01 * widest, far.to);
       near = far;
     } else if (std::isfinite(far.distance)) {
       const double share = (normal - near.distance) / (far.distance - near.distance);
@@ -217,6 +220,7 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
     if (as_expected(profile, below) && as_expected(profile, above)) continue;
     found.push_back({j, profile.value() - std::abs(end_of_interval(profile, std::move(below))),
                      profile.value() + end_of_interval(profile, std::move(above))});
+    if (std::isinf(found.back().lower) && std::isinf(found.back().upper)) break;  // refused
   }
   return found;
 }

@@ -51,8 +51,9 @@ double size_of_step(const Minimum& at) { return relative_size(at.R.solve(), at.t
 
 /// True if the next step is below rounding, relative to theta or to the standard deviations: the
 /// rounding errors of sums over the residuals grow with their number n.
-bool negligible(const Minimum& at) {
+bool negligible(const System& system, const Minimum& at) {
   const double n = static_cast<double>(at.f.size());
+  if (system.rough && at.R.reduction() < 1e-3 * at.rss / n) return true;
   return size_of_step(at) < round_off || at.R.reduction() < unseen * unseen * n * at.rss;
 }
 
@@ -67,7 +68,7 @@ Minimum descend(const System& system, Minimum at) {
   std::vector<double> D = at.R.lengths();
   for (double& d : D)
     if (d == 0) d = 1;
-  for (int accepted = 0, refused = 0; accepted < 300 && refused <= 15;) {
+  for (int accepted = 0, refused = 0; accepted < (system.rough ? 30 : 300) && refused <= 15;) {
     const Triangles damped = at.R.damped(D, mu);
     const auto step = damped.solve();
     double scaled = 0;
@@ -87,7 +88,7 @@ Minimum descend(const System& system, Minimum at) {
     at = std::move(next);
     std::ranges::transform(D, at.R.lengths(), D.begin(),
                            [](double x, double y) { return std::max(x, y); });
-    if (negligible(at)) break;
+    if (negligible(system, at)) break;
   }
   return at;
 }
@@ -95,7 +96,7 @@ Minimum descend(const System& system, Minimum at) {
 /// Gauss-Newton steps down to the limit of rounding, as long as each step reduces the sum of
 /// squares by at least the fraction `share` of the reduction that the linear model predicts.
 Minimum polish(const System& system, Minimum best, double share) {
-  for (int i = 0; i < 100 && determined(best) && !negligible(best); ++i) {
+  for (int i = 0; i < 100 && determined(best) && !negligible(system, best); ++i) {
     Minimum next = tried(system, moved(best.theta, best.R.solve()));
     if (!(next.rss <= best.rss * (1 + 1e-10) - share * best.R.reduction())) break;
     const double size = size_of_step(best);
@@ -123,6 +124,7 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
                      std::max(best.rss - reduction, 0.0));
   };
   const auto converged = [&] {
+    if (system.rough && determined(best) && negligible(system, best)) return true;
     return determined(best) && (size_of_step(best) < 1e-7 || (freedom > 0 && offset() < 1e-3));
   };
   for (int round = 0; !converged(); ++round) {
@@ -145,11 +147,12 @@ Minimum minimise(const System& system, const std::vector<double>& start) {
     // and yet the next step changes a parameter by more than its own size, and by more than in the
     // round before, the minimum lies at infinity.
     const bool lost = freedom > 0 && gain * freedom < 1 && size > std::max(1.0, size_before);
-    if (lost || gain == 0 || round == system.rounds) fail<NotOneRoll>("the fit does not converge");
+    if (lost || gain == 0 || round == (system.rough ? 0 : 20))
+      fail<NotOneRoll>("the fit does not converge");
   }
   if (!determined(best)) fail<NotOneRoll>("the data do not determine the parameters");
   // A negligible step is taken without evaluating the residuals again.
-  if (negligible(best)) best.theta = moved(std::move(best.theta), best.R.solve());
+  if (negligible(system, best)) best.theta = moved(std::move(best.theta), best.R.solve());
   return best;
 }
 

@@ -28,7 +28,9 @@ struct System {
   std::size_t own, shared;
   /// Passes the residuals at theta to the callback, run by run.
   std::function<void(const std::vector<double>& theta, const TakeRows&)> evaluate;
-  int rounds = 20;  ///< of Levenberg-Marquardt steps, before a search that goes on is given up
+  /// True where the least sum of squares is wanted to a thousandth of the variance of the noise
+  /// alone: the search ends there, and is given up sooner.
+  bool rough = false;
 
   std::size_t columns() const { return own + shared; }  ///< columns of J
   std::size_t parameters() const { return runs.size() * own + shared; }

@@ -24,17 +24,18 @@ void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C,
   result.speed = std::exp(log_v);
   result.log_D = difference.log_D(log_v);
   result.b = difference.b();
-  const auto p = static_cast<double>(parameters);
-  result.p_of_run = gsl_cdf_fdist_Q(distance / p, p, one.freedom);
+  result.p_of_run = p_of_run(distance, one.freedom, parameters);
 }
 
-/// -2 ln of the ratio of likelihoods, of one common law to laws of the runs' own, where the noise
-/// of each run has a size of its own that is an estimate: the sum of c ln(1 + d/nu), with the
-/// squared distance d of a run to the common law and its degrees of freedom nu. c is nu times a
-/// factor of Bartlett's (1937, Proc. R. Soc. A 160, 268), so that the mean of each term is
-/// `parameters`. The weighted mean of the laws does not make this sum smallest: it follows a run
-/// whose few rows happen to agree well. Iteratively reweighted means do; since the logarithm is
-/// concave, no step makes the sum larger.
+/// nu, of a run, times a factor of Bartlett's (1937, Proc. R. Soc. A 160, 268).
+double bartlett(double nu, std::size_t parameters) {
+  const auto p = static_cast<double>(parameters);
+  return p / (gsl_sf_psi((nu + p) / 2) - gsl_sf_psi(nu / 2));
+}
+
+/// The least sum of ratio_of_run(). The weighted mean of the laws does not make it smallest: it
+/// follows a run whose few rows happen to agree well. Iteratively reweighted means do; since the
+/// logarithm is concave, no step makes the sum larger.
 double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t parameters) {
   double least = INFINITY;
   for (;;) {
@@ -44,11 +45,8 @@ double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t para
       const Symmetric weight = one.covariance.inverse();
       const double nu = one.freedom;
       const double d = weight.square(one.law - common);
-      const double c =
-          static_cast<double>(parameters) /
-          (gsl_sf_psi((nu + static_cast<double>(parameters)) / 2) - gsl_sf_psi(nu / 2));
-      sum += c * std::log1p(d / nu);
-      next.add(c / (nu + d) * weight, one.law);
+      sum += ratio_of_run(d, nu, parameters);
+      next.add(bartlett(nu, parameters) / (nu + d) * weight, one.law);
     }
     if (!(sum < least * (1 - 1e-10))) return std::min(sum, least);
     least = sum;
@@ -57,6 +55,15 @@ double least_from(Pair common, const std::vector<OwnLaw>& laws, std::size_t para
 }
 
 }  // namespace
+
+double ratio_of_run(double distance, double freedom, std::size_t parameters) {
+  return bartlett(freedom, parameters) * std::log1p(distance / freedom);
+}
+
+double p_of_run(double distance, double freedom, std::size_t parameters) {
+  const auto p = static_cast<double>(parameters);
+  return gsl_cdf_fdist_Q(distance / p, p, freedom);
+}
 
 Estimate OwnLaw::log_D(double log_v) const {
   const Symmetric& C = covariance;

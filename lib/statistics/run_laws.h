@@ -104,6 +104,14 @@ struct Agreement {
   bool agree() const { return p > levels::runs_disagree; }
 };
 
+/// -2 ln of the ratio of likelihoods, of the common law to the own law of a run whose noise has a
+/// size of its own that is an estimate: c ln(1 + d/nu), with the squared distance d of the two laws
+/// and the degrees of freedom nu of the noise. The factor c makes its mean `parameters`.
+double ratio_of_run(double distance, double freedom, std::size_t parameters);
+
+/// The probability that noise alone puts the law of a run so far from the others, by Fisher's F.
+double p_of_run(double distance, double freedom, std::size_t parameters);
+
 /// Compares two or more laws. `parameters`: how many of a and b are free; `taken` degrees of
 /// freedom were spent on what the runs have in common beside the law.
 Agreement compare(const std::vector<OwnLaw>&, std::size_t parameters, std::size_t taken);

@@ -218,6 +218,20 @@ TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to 
   CHECK(alarms <= at_most(sets, 0.01));
 }
 
+// In a single roll the valley of d0, a and b is long and bent: its covariance is no measure of it.
+TEST_CASE("agreement: rolls of d0 + a v^b agree, and one that is 5 % off does not", "[fit][many]") {
+  simulated::Noise noise(45);
+  FitOptions options;
+  options.law = &laws()[5];
+  for (unsigned k = 0; k < of_many(10); ++k) {
+    std::vector<Run> runs;
+    for (int i = 0; i < 30; ++i) runs.push_back(roll(rubber, 0, 1, noise));
+    CHECK(fit(Route::position, runs, options).agreement->p > 1e-3);
+    runs[7] = roll({1.05 * rubber.a, rubber.b}, 0, 1, noise);
+    CHECK_FALSE(fit(Route::position, runs, options).agreement->agree());
+  }
+}
+
 TEST_CASE("agreement: the errors allow for 2 % of scatter from run to run", "[fit][many]") {
   for (const auto& [law, count] : {std::pair(felt, 4), std::pair(rubber, 6)}) {
     simulated::Noise noise(33);
