@@ -45,51 +45,52 @@ bool may_be_thousands(std::string_view field, char mark) {
 /// comma or U+2212 have.
 constexpr bool is_plain_text(char c) { return c >= '-' && c <= 'z' && c != ';'; }
 
-const char* skip_blanks(const char* at, const char* end) {
-  return std::find_if_not(at, end, is_blank);
-}
-
 /// Reads the number of the field if it is wanted, else skips plain text; returns the end of either.
 /// Reading a number finds its end, and so the end of its field: the line is passed over only once.
 const char* read_plain(const char* at, const char* end, Field& field) {
-  return field.wanted ? read_number(at, end, field.number)
-                      : std::find_if_not(at, end, is_plain_text);
+  if (field.wanted) return read_number(at, end, field.number);
+  while (at != end && is_plain_text(*at)) ++at;
+  return at;
 }
 
 }  // namespace
 
-const char* closing_quote(const char* at, const char* end) {
-  for (;; at += 2) {
-    at = std::find(at, end, quote);
-    if (at == end || at + 1 == end || at[1] != quote) return at;
-  }
+std::size_t closing_quote(std::string_view text) {
+  for (std::size_t at = text.find(quote); at < text.size(); at = text.find(quote, at + 2))
+    if (at + 1 == text.size() || text[at + 1] != quote) return at;
+  return text.size();
 }
 
 std::optional<std::string> take_quoted(std::string_view& line, char separator) {
   if (!line.starts_with(quote)) return {};
-  const char *const first = line.data() + 1, *const end = line.data() + line.size(),
-                    *const close = closing_quote(first, end);
-  if (close == end) return {};
-  std::string_view behind(close + 1, end);
+  const std::string_view inside = line.substr(1);
+  const std::size_t close = closing_quote(inside);
+  if (close == inside.size()) return {};
+  std::string_view behind = inside.substr(close + 1);
   while (separator && !behind.empty() && behind.front() != separator && is_blank(behind.front()))
     behind.remove_prefix(1);
   if (!behind.empty() && (separator ? behind.front() != separator : !is_blank(behind.front())))
     return {};
   line = behind;
-  return replace_all(trim({first, close}), {{"\"\"", "\""}});
+  return replace_all(trim(inside.substr(0, close)), {{"\"\"", "\""}});
 }
 
-Unquoted outside_quotes(std::string_view text, std::string_view between, bool within) {
-  Unquoted outside;
-  const char *at = text.data(), *const end = at + text.size();
-  for (bool begins = true; within || at != end; ++at) {
-    if (within || (begins && *at == quote)) {
-      at = closing_quote(within ? at : at + 1, end);
-      if (at == end) return {outside.text, true};
-      begins = within = false;
+std::string outside_quotes(std::string_view text, std::string_view between, bool& within) {
+  std::string outside;
+  for (bool begins = true; within || !text.empty();) {
+    const bool opens = !within && begins && text.front() == quote;
+    if (within || opens) {
+      text.remove_prefix(opens ? 1 : 0);
+      const std::size_t close = closing_quote(text);
+      within = close == text.size();
+      if (within) return outside;
+      text.remove_prefix(close + 1);
+      begins = false;
     } else {
-      outside.text += *at;
-      begins = between.find(*at) != std::string_view::npos || (begins && is_blank(*at));
+      const char next = text.front();
+      outside += next;
+      begins = holds(between, next) || (begins && is_blank(next));
+      text.remove_prefix(1);
     }
   }
   return outside;
@@ -107,7 +108,8 @@ void append_field(Bytes& line, std::string_view field) {
 }
 
 bool Dialect::choose(std::string_view line, bool tabs) {
-  const std::string outside = outside_quotes(line, separators).text;
+  bool within = false;
+  const std::string outside = outside_quotes(line, separators, within);
   const auto first = std::ranges::find_if(separators, [&](char c) { return holds(outside, c); });
   *this = Dialect();
   separator_ = first == separators.end() ? '\0' : *first;
@@ -144,11 +146,10 @@ std::span<const Field> Dialect::split(std::string_view line) {
   count_ = 0;
   made_.clear();
   made_.reserve(2 * line.size());  // a text without its quotes, and then in plain form
-  const char *at = line.data(), *const end = at + line.size();
-  if (separator_ == '\0') {
-    split_blanks(at, end);
-    return {fields_.data(), count_};
-  }
+  if (separator_ == '\0') line = trim(line);
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  if (separator_ == '\0' && at == end) return {};
   for (;; ++at) {
     at = take_text(at, end, next_field());
     if (at == end) return {fields_.data(), count_};
@@ -175,16 +176,17 @@ const char* Dialect::split_with_commas(std::string_view text, std::span<const Fi
 }
 
 const char* Dialect::split_with_points(std::string_view text, std::span<const Field>& fields) {
-  const char *at = text.data(), *const end = at + text.size();
+  const char* at = text.data();
+  const char* const end = at + text.size();
   const bool blanks = separator_ == '\0';
   const char separator = blanks ? ' ' : separator_;
-  for (Field* field = fields_.data(); field != fields_.data() + fields_.size(); ++field) {
-    if (blanks) at = skip_blanks(at, end);
+  for (Field& field : fields_) {
+    while (at != end && is_blank(*at) && *at != separator_) ++at;
     const char* first = at;
-    at = read_plain(first, end, *field);
+    at = read_plain(first, end, field);
     const bool quoted = at == first && at != end && *at == quote && !blanks;
-    if (quoted) at = read_plain(++first, end, *field);
-    field->text = {first, at};
+    if (quoted) at = read_plain(++first, end, field);
+    field.text = {first, at};
     if (at == first || at == end) return nullptr;
     if (quoted && (*at++ != quote || at == end)) return nullptr;
     if (*at == separator) {
@@ -192,27 +194,17 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
       continue;
     }
     if (*at != '\n' && (*at != '\r' || end - at < 2 || at[1] != '\n')) return nullptr;
-    fields = {fields_.data(), field + 1};
+    fields = {fields_.data(), &field + 1};
     return at;
   }
   return nullptr;
-}
-
-void Dialect::split_blanks(const char* at, const char* end) {
-  while ((at = skip_blanks(at, end)) != end) {
-    const char* const first = at;
-    while (at != end && !is_blank(*at)) ++at;
-    Field& field = next_field();
-    field.text = {first, at};
-    if (field.wanted && !parse_number(field.text, field.number)) field.number = Field().number;
-  }
 }
 
 /// Reads the field that begins at `at`, with any content; returns its end.
 const char* Dialect::take_text(const char* at, const char* end, Field& field) {
   const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
-  if (at != end && *at == quote) {
+  if (separator_ != '\0' && at != end && *at == quote) {
     std::string_view rest(at, end);
     const auto text = take_quoted(rest, separator_);
     if (!text) fail("field {}: text behind the quotes of '{}'", count_, shown(rest));
@@ -220,7 +212,7 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = std::string_view(made_).substr(made_.size() - text->size());
     at = rest.data();
   } else {
-    at += std::min(std::string_view(at, end).find(separator_), static_cast<std::size_t>(end - at));
+    while (at != end && (separator_ == '\0' ? !is_blank(*at) : *at != separator_)) ++at;
     field.text = trim({first, at});
   }
   if (allows_foreign() && rewrite(field)) return at;
@@ -233,8 +225,8 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
 bool Dialect::may_be_grouped(const Field& field) {
   if (seen_.size() < count_) seen_.resize(count_);
   const std::string_view size = without_sign(field.text);
-  const bool is_grouped = may_be_thousands(field.text, '.'),
-             is_small = size.size() <= 3 && is_whole(size);
+  const bool is_grouped = may_be_thousands(field.text, '.');
+  const bool is_small = size.size() <= 3 && is_whole(size);
   if (!field.wanted || !(is_grouped || is_small)) return is_grouped;
   Seen& seen = seen_[count_ - 1];
   seen.whole |= is_small;

@@ -24,23 +24,19 @@ constexpr bool is_separator(char c) { return separators.find(c) != std::string_v
 
 inline constexpr char quote = '"';
 
-/// Finds the quote that closes a field; `at` is behind the opening quote. Returns `end` if there is
-/// none. Two quotes in a row stand for one quote inside the field.
-const char* closing_quote(const char* at, const char* end);
+/// The place of the quote that closes a field, in the text behind its opening quote; the size of
+/// the text if there is none. Two quotes in a row stand for one quote inside the field.
+std::size_t closing_quote(std::string_view text);
 
 /// Takes a quoted field from the beginning of `line`, and the blanks behind it; with `separator` 0
 /// a blank ends it. Returns its text without blanks around it, with one quote for two; nothing if
 /// there is none, if no quote closes it, or if other text stands behind that quote.
 std::optional<std::string> take_quoted(std::string_view& line, char separator);
 
-/// The part of a text that is outside quoted fields.
-struct Unquoted {
-  std::string text;
-  bool ends_within = false;  ///< a quoted field is still open at the end
-};
-/// A quote opens a quoted field only where a field begins: at the beginning of `text`, which may be
-/// within such a field already, and behind one of these separators.
-Unquoted outside_quotes(std::string_view text, std::string_view separators, bool within = false);
+/// The part of a text that is outside quoted fields. A quote opens such a field only where a field
+/// begins: at the beginning of the text and behind one of these separators. `within`: whether the
+/// text begins within a quoted field; afterwards, whether it ends within one.
+std::string outside_quotes(std::string_view text, std::string_view separators, bool& within);
 
 /// Appends a field to a tab-separated line, in quotes if it contains a tab, a line end or a quote,
 /// or begins with #.
@@ -92,7 +88,6 @@ class Dialect {
   }
   const char* split_with_commas(std::string_view text, std::span<const Field>& fields);
   const char* split_with_points(std::string_view text, std::span<const Field>& fields);
-  void split_blanks(const char* at, const char* end);
   const char* take_text(const char* at, const char* end, Field&);
   bool rewrite(Field&);
   bool may_be_grouped(const Field&);

@@ -50,9 +50,8 @@ constexpr std::array<std::string_view, 8> error_values = {
 /// some put around each text.
 std::string_view only_cell(std::string_view line) {
   const std::string_view text = trim(line.substr(0, line.find_last_not_of(filling) + 1));
-  const bool quoted = text.size() > 1 && text.front() == quote &&
-                      closing_quote(text.data() + 1, &text.back()) == &text.back() &&
-                      text.back() == quote;
+  const bool quoted =
+      text.size() > 1 && text.front() == quote && closing_quote(text.substr(1)) == text.size() - 2;
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
@@ -175,15 +174,17 @@ std::string history_line(std::string_view line) {
 }
 
 void Lines::join_quoted() {
-  if (text_.find(quote) == std::string_view::npos || kind() != LineKind::row ||
-      !outside_quotes(text_, separators_).ends_within)
-    return;
+  if (text_.find(quote) == std::string_view::npos || kind() != LineKind::row) return;
+  bool within = false;
+  outside_quotes(text_, separators_, within);
+  if (!within) return;
   joined_ = text_;
-  do {
+  while (within) {
     if (joined_.size() > longest_line || !next_in_file())
       fail<InputError>("{}:{}: a quote that is not closed", name(), number_);
     (joined_ += '\n') += text_;
-  } while (outside_quotes(text_, separators_, true).ends_within);
+    outside_quotes(text_, separators_, within);
+  }
   text_ = joined_;
 }
 

@@ -23,8 +23,9 @@ std::string chosen(std::string_view line) {
 }
 
 std::string outside(std::string_view text, std::string_view between = separators) {
-  const Unquoted unquoted = outside_quotes(text, between);
-  return unquoted.text + (unquoted.ends_within ? "..." : "");
+  bool within = false;
+  const std::string unquoted = outside_quotes(text, between, within);
+  return unquoted + (within ? "..." : "");
 }
 
 std::string appended(std::string_view field) {
@@ -169,13 +170,15 @@ TEST_CASE("dialect: a line of numbers and plain text is split before its end is 
     }
     const std::string quoted = line("\"1\"", "2", "\"x\"");
     CHECK(plain_fields(dialect, quoted + "\n", quoted.size()) == "<1|1><2|2><x|nan>");
+    const std::string blanks = line("  1", " 2", " \"x\"");
+    CHECK(plain_fields(dialect, blanks + "\n", blanks.size()) == "<1|1><2|2><x|nan>");
     const std::string plain = line("1", "2", "x");
     CHECK(plain_fields(dialect, line("1", "2", "") + "\n", 0) == "?");
     CHECK(plain_fields(dialect, line("", "2", "x") + "\n", 0) == "?");
     for (const char* odd : {"", "\r", "\r\r\n", " \n", "\"\n", "#\n"})
       CHECK(plain_fields(dialect, plain + odd, 0) == "?");
-    for (const char* odd : {"NaN", "1 ", " 1", "\"1", "\"\"", "\"1 \"", "\"1\"1", "\"1\" ", "1\"",
-                            "#1", "1x", "0x1", "1e", "1e400",
+    for (const char* odd : {"NaN", "1 ", "\"1", "\"\"", "\"1 \"", "\"1\"1", "\"1\" ", "1\"", "#1",
+                            "1x", "0x1", "1e", "1e400",
                             "\xE2\x88\x92"
                             "1"})
       for (const std::string& text : {line(odd, "2", "x"), line("1", odd, "x")}) {
