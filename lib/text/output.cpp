@@ -7,31 +7,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 namespace rolling {
-namespace {
 
 constexpr std::string_view names_run = "## run ";
-
-/// Blocks the signals that end a tool while it writes, so that they do not cut a line in two.
-class SignalsWait {
- public:
-  SignalsWait() {
-    sigset_t ending;
-    sigemptyset(&ending);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
-    pthread_sigmask(SIG_BLOCK, &ending, &before_);
-  }
-  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_;
-};
-
-}  // namespace
 
 std::string names_line(const std::vector<Column>& columns) {
   std::string line;
@@ -44,18 +23,15 @@ std::string names_line(const std::vector<Column>& columns) {
   return line;
 }
 
-void Output::header(const std::string& line) {
-  if (!plain) return this->line(line);
-  const std::string names = line.substr(2);
+void Output::header(const std::string& whole) {
+  if (!plain) return line(whole);
+  const std::string names = whole.substr(2);
   const bool has_run = ('\t' + names + '\t').find("\trun\t") != std::string::npos;
   const bool needs_run = !run_.empty() && !has_run;
   if (header_.empty()) {
     header_ = names;
+    line(needs_run ? names + "\trun" : names);
     with_run_ = needs_run;
-    text(names);
-    const std::string run = std::exchange(run_, "run");  // what the line ends with
-    end_line();
-    run_ = run;
   }
   if (names != header_) fail("--plain prints one table, and these columns are not those before");
   if (needs_run && !with_run_)
@@ -83,27 +59,31 @@ bool Output::end_plain_line() {
 }
 
 void Output::flush() {
-  const SignalsWait waiting;
-  for (std::string_view left(buffer_.data(), buffer_.size()); !left.empty();) {
+  // The signals that end a tool wait, so that they do not cut a line in two.
+  sigset_t ending;
+  sigset_t before;
+  sigemptyset(&ending);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+  pthread_sigmask(SIG_BLOCK, &ending, &before);
+  int reason = 0;
+  std::string_view left(buffer_.data(), buffer_.size());
+  while (!left.empty() && reason == 0) {
     const ssize_t count = ::write(STDOUT_FILENO, left.data(), left.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && errno == EAGAIN) {  // another process has made it non-blocking
+    if (count >= 0) {
+      written_ = true;
+      torn_ = left[static_cast<std::size_t>(count) - 1] != '\n';
+      left.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {  // another process has made it non-blocking
       pollfd ready{STDOUT_FILENO, POLLOUT, 0};
       ::poll(&ready, 1, -1);
-      continue;
+    } else if (errno != EINTR) {
+      reason = errno;
     }
-    if (count < 0) {
-      const int reason = errno;
-      whole_ = 0;
-      drop_line();
-      fail<CompleteError>("standard output: {}", std::strerror(reason));
-    }
-    written_ = true;
-    torn_ = left[static_cast<std::size_t>(count) - 1] != '\n';
-    left.remove_prefix(static_cast<std::size_t>(count));
   }
   whole_ = 0;
   drop_line();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (reason != 0) fail<CompleteError>("standard output: {}", std::strerror(reason));
 }
 
 void Output::end_with(std::string_view line) noexcept {
