@@ -16,6 +16,12 @@ constexpr std::pair<std::string_view, std::string_view> long_names[] = {
     {"time", "t"},     {"position", "x"}, {"distance", "x"},     {"displacement", "x"},
     {"velocity", "v"}, {"speed", "v"},    {"acceleration", "a"}, {"shift", "D"}};
 
+/// t for Time, x for Position or Distance and so on, in any case; any other name as it is.
+std::string short_name(std::string_view name) {
+  const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
+  return std::string(found == std::end(long_names) ? name : found->second);
+}
+
 /// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
 /// beginning; returns the number, or the word if there is no number. A colon in brackets, or behind
 /// them, is none of a label: `Clock (hh:mm:ss)`.
@@ -29,14 +35,12 @@ std::string take_run(std::string_view& name) {
     name = trim(name.substr(colon + 1));
   }
   const std::string_view number = number_at_end(name);
-  const auto at = name.rfind("Run");
-  if (!number.empty() && at != std::string_view::npos && at > 0 && name[at - 1] == ' ') {
-    const std::string_view between =
-        trim(name.substr(at + 3, name.size() - number.size() - (at + 3)));
-    if (between.empty() || between == "#") {
-      name = trim(name.substr(0, at));
-      return std::string(number);
-    }
+  std::string_view before = trim(name.substr(0, name.size() - number.size()));
+  if (before.ends_with('#')) before = trim(before.substr(0, before.size() - 1));
+  constexpr std::string_view run = " Run";
+  if (!number.empty() && before.ends_with(run)) {
+    name = trim(before.substr(0, before.size() - run.size()));
+    return std::string(number);
   }
   return std::string(number_at_end(prefix).empty() ? prefix : number_at_end(prefix));
 }
@@ -79,11 +83,6 @@ std::string with_underscores(std::string_view name) {
   return text;
 }
 
-std::string short_name(std::string_view name) {
-  const auto found = std::ranges::find(long_names, lower(name), [](auto& of) { return of.first; });
-  return std::string(found == std::end(long_names) ? name : found->second);
-}
-
 Column read_column(std::string_view text) {
   Column column;
   // Brackets of full width; and a quoted name may go over two lines.
@@ -99,18 +98,15 @@ Column read_column(std::string_view text) {
   } else {
     column.unit = take_unit_in_words(name);
   }
-  const auto slash = column.unit.empty() ? name.find('/') : std::string_view::npos;
-  const std::string quantity = short_name(trim(name.substr(0, slash)));
-  if (slash == std::string_view::npos) {
-    column.name = quantity;
-  } else if (const std::string below = bare_unit(trim(name.substr(slash + 1)));
-             unit_of(quantity, below)) {  // t/ms
-    column.name = quantity;
-    column.unit = below;
-  } else {
-    column.name = name;
+  column.name = with_underscores(short_name(name));
+  if (const auto slash = name.find('/'); slash < name.size() && column.unit.empty()) {
+    const std::string quantity = short_name(trim(name.substr(0, slash)));
+    const std::string below = bare_unit(trim(name.substr(slash + 1)));
+    if (unit_of(quantity, below)) {  // t/ms
+      column.name = quantity;
+      column.unit = below;
+    }
   }
-  column.name = with_underscores(column.name);
   if (in_capitals(line) && !is_unit(column.unit) && unit_of(column.name, lower(column.unit)))
     column.unit = lower(column.unit);
   return column;

@@ -37,9 +37,6 @@ std::string with_underscores(std::string_view name);
 /// The name with the label of a run, for a column that is of no run of its own: `Engine:Load`.
 std::string labelled_name(const Column&);
 
-/// t for Time, x for Position or Distance and so on, in any case; any other name as it is.
-std::string short_name(std::string_view name);
-
 /// The form in which the tools write names: `v[m/s]`.
 std::string to_text(const Column&);
 

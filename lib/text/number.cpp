@@ -42,8 +42,7 @@ bool parse_number(std::string_view field, double& value) {
 }
 
 bool is_missing(std::string_view field) {
-  return field.empty() || (field.size() == 3 && (field[0] | 32) == 'n' && (field[1] | 32) == 'a' &&
-                           (field[2] | 32) == 'n');
+  return field.empty() || (field.size() == 3 && lower(field) == "nan");
 }
 
 void append_number(Bytes& to, double value, int digits) {

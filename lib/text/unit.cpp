@@ -8,7 +8,6 @@
 #include <sstream>
 #include <vector>
 
-#include "text/column.h"
 #include "text/number.h"
 
 namespace rolling {
@@ -57,15 +56,14 @@ constexpr KnownQuantity quantities[] = {
 };
 
 std::optional<Unit> spelled(std::string_view word) {
-  const auto is_one_of = [](const NamedUnit& unit, std::string_view text) {
-    return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
-  };
   for (const NamedUnit& unit : units) {
-    if (is_one_of(unit, word)) return Unit{unit.quantity, unit.to_si};
-    if (!unit.prefixed) continue;
+    const auto has = [&](std::string_view text) {
+      return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
+    };
+    if (has(word)) return Unit{unit.quantity, unit.to_si};
     for (const Prefix& prefix : prefixes)
       for (const std::string_view front : {prefix.word, prefix.letter})
-        if (word.starts_with(front) && is_one_of(unit, word.substr(front.size())))
+        if (unit.prefixed && word.starts_with(front) && has(word.substr(front.size())))
           return Unit{unit.quantity, prefix.size};
   }
   return {};
@@ -88,11 +86,8 @@ std::string as_quotient(std::string_view unit) {
   return square && slash != std::string::npos ? text + text.substr(slash) : text;
 }
 
-/// Words of English, and signs in the names of columns.
-bool is_ambiguous(std::string_view word) {
-  constexpr std::array words = {"in", "min", "mins", "us", "um", "h", "cm", "foot", "feet"};
-  return std::ranges::count(words, word) > 0;
-}
+/// Units that are words of English, or signs in the names of columns.
+constexpr std::array ambiguous = {"in", "min", "mins", "us", "um", "h", "cm", "foot", "feet"};
 
 }  // namespace
 
@@ -197,7 +192,7 @@ void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
     const bool in_bracket = i > 0 && words[i - 1] == "[";
     const bool of_value =
         (i > 0 && is_number(words[i - 1])) || (i + 1 < words.size() && is_number(words[i + 1]));
-    if (of_value || (is_ambiguous(words[i]) && !in_bracket)) continue;
+    if (of_value || (std::ranges::count(ambiguous, words[i]) > 0 && !in_bracket)) continue;
     const auto found = read_unit(words[i]);
     if (!found || !found->to_si.changes()) continue;
     said[std::string(found->quantity)] = {words[i], line};
