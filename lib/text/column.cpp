@@ -69,12 +69,6 @@ std::string take_unit_in_words(std::string_view& name) {
   return unit;
 }
 
-/// Whether all letters are capitals: of a name and of its unit, which then may be one in small
-/// letters, as in `TIME (S)`.
-bool in_capitals(std::string_view text) {
-  return std::ranges::none_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
-}
-
 }  // namespace
 
 std::string with_underscores(std::string_view name) {
@@ -107,7 +101,9 @@ Column read_column(std::string_view text) {
       column.unit = below;
     }
   }
-  if (in_capitals(line) && !is_unit(column.unit) && unit_of(column.name, lower(column.unit)))
+  // In capitals alone a unit may be one in small letters: `TIME (S)`.
+  const bool in_capitals = std::ranges::none_of(line, [](char c) { return c >= 'a' && c <= 'z'; });
+  if (in_capitals && !is_unit(column.unit) && unit_of(column.name, lower(column.unit)))
     column.unit = lower(column.unit);
   return column;
 }

@@ -299,7 +299,14 @@ class HeadReader {
       return true;
     });
     auto columns = with_names(std::move(header.names.columns));
-    for (std::size_t i = 0; i < units.size(); ++i) add_unit(columns[i], units[i].written);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const std::string below = bare_unit(units[i].written);
+      if (below.empty()) continue;
+      if (!columns[i].unit.empty() && columns[i].unit != below)
+        fail<InputError>("{}:{}: the column '{}' has another unit in the line of units, '{}'",
+                         lines_.name(), head_.line, shown(to_text(columns[i])), shown(below));
+      columns[i].unit = below;
+    }
     const std::size_t names = columns.size();
     const std::size_t width = row_.count - (row_.blank_end && names + 1 == row_.count);
     head_.layout = Layout::of(columns, sides);
@@ -308,16 +315,6 @@ class HeadReader {
           "{} under a line of {}: begin that with # if it is no header, put quotes around names "
           "that hold a separator, and make decimal commas points",
           counted(width, "field"), counted(names, "name"));
-  }
-
-  /// Gives a column the unit in a line of units. Refuses one other than that of the name.
-  void add_unit(Column& column, std::string_view unit) const {
-    const std::string below = bare_unit(unit);
-    if (below.empty()) return;
-    if (!column.unit.empty() && column.unit != below)
-      fail<InputError>("{}:{}: the column '{}' has another unit in the line of units, '{}'",
-                       lines_.name(), head_.line, shown(to_text(column)), shown(below));
-    column.unit = below;
   }
 
   /// Notes that several `##` lines were sorted, if one stands below the comment with the names: the

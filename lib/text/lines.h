@@ -59,11 +59,11 @@ class Lines {
 
   /// The bytes that are in memory from the next line on; they may end within a line.
   std::string_view ahead() const { return {at_, end_}; }
-  /// Goes to the line at the beginning of ahead(), which has no quoted line end: `size` bytes, and
-  /// `end` bytes of its line end.
-  void take(std::size_t size, std::size_t end) {
-    text_ = {at_, size};
-    at_ += size + end;
+  /// Goes to the line at the beginning of ahead(), which has no quoted line end; its own end (LF or
+  /// CR LF) begins here.
+  void take_to(const char* end) {
+    text_ = {at_, end};
+    at_ = end + (*end == '\r' ? 2 : 1);
     number_ = ++count_;
   }
 

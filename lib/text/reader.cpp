@@ -93,11 +93,23 @@ bool Reader::next_head() {
   }
   // Column numbers in --use count the fields of a line: the line is then one row.
   const Sides sides = needed_.use_has_numbers() ? Sides::one : Sides::by_names;
-  while (file_open_ || next_file()) {
+  while (file_open_ || next_file_ < options_.files.size()) {
+    if (!std::exchange(file_open_, true)) {
+      run_in_file_ = 0;
+      lines_.emplace(options_.files[next_file_++]);
+    }
     const bool first = run_in_file_ == 0;
     Head head = read_head(*lines_, dialect_, first ? nullptr : &head_, order_, sides);
-    if (!head.layout.runs.empty()) {
-      take_head(std::move(head));
+    const std::size_t width = head.layout.width();
+    const std::size_t before = head_.layout.width();
+    if (width > 0) {  // there is another run
+      if (first && next_file_ > 1 && !head.named && (head_.named || width != before))
+        fail<InputError>(
+            "{}: its columns are not those of {}: {}; give it a header", lines_->name(),
+            options_.files.front(),
+            head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
+      head_ = std::move(head);
+      side_ = 0;
       return true;
     }
     for (std::string& comment : head.comments) {
@@ -110,24 +122,6 @@ bool Reader::next_head() {
     file_open_ = false;
   }
   return false;
-}
-
-bool Reader::next_file() {
-  if (next_file_ == options_.files.size()) return false;
-  run_in_file_ = 0;
-  lines_.emplace(options_.files[next_file_++]);
-  return file_open_ = true;
-}
-
-void Reader::take_head(Head head) {
-  const std::size_t width = head.layout.width();
-  const std::size_t before = head_.layout.width();
-  if (run_in_file_ == 0 && next_file_ > 1 && !head.named && (head_.named || width != before))
-    fail<InputError>("{}: its columns are not those of {}: {}; give it a header", lines_->name(),
-                     options_.files.front(),
-                     head_.named ? "those have names" : fmt::format("{}, not {}", width, before));
-  head_ = std::move(head);
-  side_ = 0;
 }
 
 /// True if the file has several runs.

@@ -114,8 +114,6 @@ class Reader {
   // Runs.
   bool find_run();
   bool next_head();
-  bool next_file();
-  void take_head(Head);
   std::string called() const;
   bool asked_for();
   void begin_run();
@@ -125,7 +123,6 @@ class Reader {
 
   // Rows.
   bool next_line();
-  bool take_plain_line();
   bool are_names(std::string_view comment) const;
   bool take_fields();
   bool take_row();

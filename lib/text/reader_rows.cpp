@@ -60,26 +60,18 @@ bool Reader::are_names(std::string_view comment) const {
          std::min<std::size_t>(2, columns.size());
 }
 
-/// Fast path for most lines: a row of the same form as the one before it in this run is found
-/// and split in one pass. False for any other line, which is left to next_line().
-inline bool Reader::take_plain_line() {
-  const std::string_view ahead = lines_->ahead();
-  const char* const end = dialect_.split_plain(ahead, fields_);
-  if (!end) return false;
-  lines_->take(static_cast<std::size_t>(end - ahead.data()), *end == '\r' ? 2 : 1);
-  return true;
-}
-
 bool Reader::next() {
   remarks_.clear();
   if (state_ != State::in_run) return false;
   for (;;) {
-    if (!take_plain_line()) {
-      if (!next_line()) {
-        left_out_ -= std::exchange(blank_rows_, 0);
-        return false;
-      }
+    // Most lines are rows that are found and split in one pass.
+    if (const char* const end = dialect_.split_plain(lines_->ahead(), fields_)) {
+      lines_->take_to(end);
+    } else if (next_line()) {
       fields_ = located([&] { return here(); }, [&] { return dialect_.split(lines_->text()); });
+    } else {
+      left_out_ -= std::exchange(blank_rows_, 0);
+      return false;
     }
     if (take_row()) return row_found_ = true;
     ++left_out_;
