@@ -15,9 +15,9 @@ int main(int argc, char** argv) {
   SignalOptions options{methods["central"], {23, 0}};
   tool.text("-c,--column", column, "COLUMN", "the column to differentiate (v, else x)");
   tool.choice("-M,--method", options.method, methods, "how the slope is found (central)");
-  tool.count("-w,--width", options.width.samples, whole,
-             "width of savgol's window, an odd number of rows (23)");
-  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
+  tool.number("-w,--width", options.width.samples, whole,
+              "width of savgol's window, an odd number of rows (23)");
+  tool.number("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.input();
   tool.output();
 

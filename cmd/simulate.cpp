@@ -309,7 +309,7 @@ int main(int argc, char** argv) {
             "print these of t,x,v,a,D,sigma_x,sigma_v (the first five)");
   tool.choice<bool>("--sensor", sensor, {{"pasco", true}},
                     "write what this motion sensor would see, push and rest included");
-  tool.count("--seed", seed, whole, "seed of the sensor's noise (1)");
+  tool.number("--seed", seed, whole, "seed of the sensor's noise (1)");
   add_options(tool, sonar);
   tool.scene();
   tool.output();

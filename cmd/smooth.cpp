@@ -134,11 +134,11 @@ int main(int argc, char** argv) {
   tool.text("-c,--column", column, "COLUMN",
             "the column to smooth (v, else the first that is not t); to select rows, x before v");
   tool.choice("-M,--method", options.method, methods, "what replaces a reading (mean)");
-  tool.count("-w,--width", options.width.samples, whole,
-             "width of the window, an odd number of rows (11)");
+  tool.number("-w,--width", options.width.samples, whole,
+              "width of the window, an odd number of rows (11)");
   tool.number("--seconds", options.width.seconds, positive,
               "width of the window in seconds, instead of rows");
-  tool.count("--order", options.order, whole, "order of savgol's polynomial (2)");
+  tool.number("--order", options.order, whole, "order of savgol's polynomial (2)");
   add_options(tool, select);
   tool.input();
   tool.output();

@@ -118,9 +118,9 @@ void Tool::equal_times() {
 }
 
 void Tool::output() {
-  count("--digits", out.digits,
-        {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
-        "round computed numbers to this many significant digits");
+  number("--digits", out.digits,
+         {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},
+         "round computed numbers to this many significant digits");
   flag("--plain", out.plain,
        "print one table for other programs: no #, no blank lines, the run in the last column");
   flag("-u,--unbuffered", out.unbuffered, "write each row at once");

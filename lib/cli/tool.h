@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/enumeration.h"
@@ -102,12 +103,12 @@ class Tool {
   void flag(const std::string& names, bool& value, const std::string& help) {
     choice<bool>(names, value, {{"false", false}, {"true", true}}, help, Values::none);
   }
-  void number(const std::string& names, double& value, const Domain&, const std::string& help);
-  template <typename Integer>
-  void count(const std::string& names, Integer& value, const Domain& domain,
-             const std::string& help) {
-    add(names, "N", help, [&value, domain](const std::string& text) {
-      value = static_cast<Integer>(to_number(text, domain));
+  template <typename Number>
+  void number(const std::string& names, Number& value, const Domain& domain,
+              const std::string& help) {
+    add(names, std::is_integral_v<Number> ? "N" : "NUMBER", help,
+        [&value, domain](const auto& text) {
+      value = static_cast<Number>(to_number(text, domain));
     });
   }
   void text(const std::string& names, std::string& value, const std::string& type,

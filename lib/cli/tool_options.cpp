@@ -175,12 +175,6 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
       ->disable_flag_override();
 }
 
-void Tool::number(const std::string& names, double& value, const Domain& domain,
-                  const std::string& help) {
-  add(names, "NUMBER", help,
-      [&value, domain](const std::string& text) { value = to_number(text, domain); });
-}
-
 void Tool::text(const std::string& names, std::string& value, const std::string& type,
                 const std::string& help) {
   add(names, type, help, [&value](const std::string& text) {
