@@ -22,11 +22,7 @@ namespace {
 /// A streaming filter as one of whole columns.
 LinearFilter linear(Quantity from, Quantity to, const SignalOptions& options, std::size_t reach) {
   return {from, to, reach,
-          [options](auto t, auto y) {
-    return output_of(*make_signal(options), t.size(), [&](std::size_t i) {
-      return Sample{t[i], y[i]};
-    });
-          },
+          [options](auto t, auto y) { return output_of(*make_signal(options), t, y); },
           options.method->shift_invariant && options.width.seconds == 0};
 }
 

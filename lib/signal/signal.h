@@ -21,14 +21,13 @@ class Signal {
   virtual std::span<const double> finish() = 0;
 };
 
-/// The output of a filter for a whole run of n samples, sample(0), sample(1), ...
-std::vector<double> output_of(Signal& filter, std::size_t n, auto&& sample) {
+/// The output of a filter for a whole run.
+inline std::vector<double> output_of(Signal& filter, std::span<const double> t,
+                                     std::span<const double> y) {
   std::vector<double> output;
-  output.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Sample s = sample(i);
-    for (const double value : filter.push(s.t, s.y)) output.push_back(value);
-  }
+  output.reserve(t.size());
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (const double value : filter.push(t[i], y[i])) output.push_back(value);
   for (const double value : filter.finish()) output.push_back(value);
   return output;
 }

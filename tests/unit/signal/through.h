@@ -12,9 +12,7 @@
 using Series = std::vector<double>;
 
 inline Series through(rolling::Signal& signal, const Series& t, const Series& y) {
-  return rolling::output_of(signal, t.size(), [&](std::size_t i) {
-    return rolling::Sample{t[i], y[i]};
-  });
+  return rolling::output_of(signal, t, y);
 }
 inline Series through(rolling::Signal&& signal, const Series& t, const Series& y) {
   return through(signal, t, y);
