@@ -93,18 +93,6 @@ bool Lines::fill() {
   return count > 0;
 }
 
-/// The end of the line at at_, up to which it is read; null if there is no further line.
-const char* Lines::end_of_line() {
-  for (std::size_t searched = 0;;) {
-    const std::size_t size = ahead().size();
-    if (const void* const feed = std::memchr(at_ + searched, '\n', size - searched))
-      return static_cast<const char*>(feed);
-    if (at_end_) return at_ == end_ ? nullptr : end_;
-    searched = size;
-    at_end_ = !fill();
-  }
-}
-
 bool Lines::next() {
   if (!held_) {
     kept_ = at_;
@@ -119,8 +107,14 @@ bool Lines::next() {
 
 /// Goes to the next line of the file, whether a quoted field goes on in it or not.
 bool Lines::next_in_file() {
-  const char* const end = end_of_line();
-  if (!end) return false;
+  const void* feed = std::memchr(at_, '\n', ahead().size());
+  while (!feed && !at_end_) {
+    const std::size_t searched = ahead().size();
+    at_end_ = !fill();
+    feed = std::memchr(at_ + searched, '\n', ahead().size() - searched);
+  }
+  if (!feed && at_ == end_) return false;
+  const char* const end = feed ? static_cast<const char*>(feed) : end_;
   text_ = {at_, end};
   at_ = end == end_ ? end : end + 1;
   if (text_.ends_with('\r')) text_.remove_suffix(1);

@@ -73,7 +73,6 @@ class Lines {
 
  private:
   bool next_in_file();
-  const char* end_of_line();
   bool fill();
   void join_quoted();
   void check_bytes() const;
