@@ -170,7 +170,7 @@ std::string line_of(const ShiftOf& of) {
   std::string line = "shift-from-accel";
   if (of.geometry == Geometry::exact) line += " exact";
   for (const UncertainNumber& number : uncertain_numbers) {
-    const Estimate x{of.body.*number.value, of.body.*number.sigma};
+    const Estimate x = number.of(of.body);
     if (number.value != &Body::slope || x.value != 0 || x.sigma != 0)
       line += fmt::format(" {} {}", number.name, to_text(x));
   }
@@ -216,8 +216,8 @@ std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body)
   std::string others;
   if (!shift_of) return others;
   for (const UncertainNumber& number : uncertain_numbers) {
-    const Estimate then{shift_of->body.*number.value, shift_of->body.*number.sigma};
-    const Estimate now{body.*number.value, body.*number.sigma};
+    const Estimate then = number.of(shift_of->body);
+    const Estimate now = number.of(body);
     if (std::isnan(now.value) || std::isnan(then.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
       continue;

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "base/estimate.h"
+
 namespace rolling {
 
 class Road;
@@ -27,6 +29,8 @@ struct UncertainNumber {
   const char* name;
   double Body::*value;
   double Body::*sigma;
+
+  Estimate of(const Body& body) const { return {body.*value, body.*sigma}; }
 };
 inline constexpr std::array<UncertainNumber, 4> uncertain_numbers = {
     {{"K", &Body::K, &Body::sigma_K},

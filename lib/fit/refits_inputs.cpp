@@ -14,10 +14,6 @@ namespace rolling {
 
 namespace {
 
-Estimate given(const ShiftOf& by, const UncertainNumber& number) {
-  return {by.body.*number.value, by.body.*number.sigma};
-}
-
 void move(Route route, Run& run, const UncertainNumber& number, double by) {
   if (is_trajectory(route)) {
     run.body.*number.value += by;
@@ -39,7 +35,8 @@ bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& optio
   if (options.a || options.fit_slope || number.value == &Body::slope) return false;
   return std::ranges::all_of(runs, [&](const Run& run) {
     const ShiftOf by = contact_of(route, run, options);
-    return given(by, number) == value && by.geometry == Geometry::approximate && by.body.slope == 0;
+    return number.of(by.body) == value && by.geometry == Geometry::approximate &&
+           by.body.slope == 0;
   });
 }
 
@@ -51,7 +48,7 @@ std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& ru
   for (const UncertainNumber& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const Run& run : runs) {
-      const Estimate value = given(contact_of(route, run, options), number);
+      const Estimate value = number.of(contact_of(route, run, options).body);
       if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
@@ -70,7 +67,8 @@ std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& ru
         }
         std::vector<Run> changed = runs;
         for (Run& run : changed)
-          if (given(contact_of(route, run, options), number) == value) move(route, run, number, by);
+          if (number.of(contact_of(route, run, options).body) == value)
+            move(route, run, number, by);
         return (agree ? fit_route : fit_of_disagreeing)(route, changed, options).numbers();
       };
       const double step = value.value == 0 || number.value == &Body::slope

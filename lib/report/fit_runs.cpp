@@ -119,9 +119,7 @@ std::vector<CommonError> take_common(FitRows& rows) {
   for (const UncertainNumber& number : uncertain_numbers) {
     std::map<std::pair<double, double>, CommonError> by_value;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
-      const Body& body = rows.runs[i].body;
-      const double value = body.*number.value;
-      const double sigma = body.*number.sigma;
+      const auto [value, sigma] = number.of(rows.runs[i].body);
       if (!(sigma > 0)) continue;
       const double log_a = sigma / (number.value == &Body::K ? value + 1 : value);
       by_value.try_emplace({value, sigma}, rows.runs.size()).first->second[i] = {log_a, 0};
