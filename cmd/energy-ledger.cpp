@@ -251,7 +251,7 @@ int main(int argc, char** argv) {
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass"});
     // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
-    for (const UncertainNumber& number : uncertain_numbers) body.*number.sigma = 0;
+    for (const NumberOfBody& number : uncertain_numbers) body.*number.sigma = 0;
     if (!task.height.empty())
       tool.refuse({"slope"}, "does not go with --height, which has the slope");
     task.road = read_road(tool, task.height);

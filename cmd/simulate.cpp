@@ -108,7 +108,7 @@ struct Task {
       fail("sigma_x and sigma_v are those of a law: they need --law and a row of fitpower");
     const double given_v0 = roll.v0;
     // A roll uses no uncertainties of its body: a law of the same values is of this body.
-    for (const UncertainNumber& number : uncertain_numbers) roll.body.*number.sigma = 0;
+    for (const NumberOfBody& number : uncertain_numbers) roll.body.*number.sigma = 0;
     const auto laws = read_laws(tool, law, {roll.body, roll.geometry}, foretells);
     if (laws.size() > 1 && run.empty())
       fail("{}: {} rows: choose one by --run NAME", shown(law.file), laws.size());

@@ -131,21 +131,22 @@ std::string names_of(const std::set<Quantity>& quantities) {
 std::optional<std::vector<ShiftOf>> read_contacts(std::span<const std::string> words,
                                                   std::size_t rows) {
   std::vector<ShiftOf> contacts(rows, {{NAN, NAN, NAN, NAN}});
-  auto number = std::begin(words_of_body);
+  auto number = numbers_of_body.begin();
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "exact") {
       for (ShiftOf& contact : contacts) contact.geometry = Geometry::exact;
       continue;
     }
-    number = std::find_if(number, std::end(words_of_body),
-                          [&](const Word& word) { return word.name == words[i]; });
-    if (number == std::end(words_of_body) || ++i == words.size()) return {};
+    number = std::ranges::find(number, numbers_of_body.end(), words[i], &NumberOfBody::name);
+    if (number == numbers_of_body.end() || ++i == words.size()) return {};
+    const bool may_be_fit =
+        std::ranges::count(scene_numbers, number->value, &SceneNumber::value) > 0;
     const std::vector<std::string> texts = split_names(words[i], ',');
     if (texts.size() != 1 && texts.size() != rows) return std::vector<ShiftOf>{};
     for (std::size_t row = 0; row < rows; ++row) {
       const std::string& text = texts[texts.size() == 1 ? 0 : row];
       Estimate read{NAN};
-      if (!parse_estimate(text, read) && !(text == "fit" && number->is_fitted)) return {};
+      if (!parse_estimate(text, read) && !(text == "fit" && may_be_fit)) return {};
       contacts[row].body.*number->value = read.value;
       if (number->sigma) contacts[row].body.*number->sigma = read.sigma;
     }
@@ -169,7 +170,7 @@ Column derivative_of(const Column& column) {
 std::string line_of(const ShiftOf& of) {
   std::string line = "shift-from-accel";
   if (of.geometry == Geometry::exact) line += " exact";
-  for (const UncertainNumber& number : uncertain_numbers) {
+  for (const NumberOfBody& number : uncertain_numbers) {
     const Estimate x = number.of(of.body);
     if (number.value != &Body::slope || x.value != 0 || x.sigma != 0)
       line += fmt::format(" {} {}", number.name, to_text(x));
@@ -181,7 +182,7 @@ std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std
   for (const std::string& line : lines) {
     const std::vector<std::string> words = split_names(line, '\0');
     if (words.front() != "fitpower") continue;
-    const auto numbers = std::ranges::find(words, words_of_body[0].name);
+    const auto numbers = std::ranges::find(words, numbers_of_body[0].name);
     if (words.size() >= 3 && numbers == words.end()) return {};
     const auto contacts = read_contacts({numbers, words.end()}, rows);
     if (numbers - words.begin() > 4 || !contacts)
@@ -215,7 +216,7 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body) {
   std::string others;
   if (!shift_of) return others;
-  for (const UncertainNumber& number : uncertain_numbers) {
+  for (const NumberOfBody& number : uncertain_numbers) {
     const Estimate then = number.of(shift_of->body);
     const Estimate now = number.of(body);
     if (std::isnan(now.value) || std::isnan(then.value) ||

@@ -20,20 +20,6 @@ Column derivative_of(const Column&);
 /// The line of shift-from-accel: the numbers from which D was computed, with their uncertainties.
 std::string line_of(const ShiftOf&);
 
-/// A number of the body in the line of a tool.
-struct Word {
-  const char* name;
-  double Body::*value;
-  double Body::*sigma;                    ///< nullptr for one without an uncertainty
-  bool FitOptions::*is_fitted = nullptr;  ///< the rows then have it
-};
-inline constexpr Word words_of_body[] = {
-    {"K", &Body::K, &Body::sigma_K},
-    {"R", &Body::R, &Body::sigma_R},
-    {"g", &Body::g, &Body::sigma_g},
-    {"slope", &Body::slope, &Body::sigma_slope, &FitOptions::fit_slope},
-    {"wind", &Body::wind, nullptr, &FitOptions::fit_wind}};
-
 /// The bodies in the line of fitpower above so many rows; NaN for a slope and a wind that are in
 /// the rows. Empty if there is no such line, or if it has no numbers, or those of more runs than
 /// rows. Throws Error for a line that fitpower does not write.

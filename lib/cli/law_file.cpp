@@ -190,14 +190,14 @@ std::string line_of_fit(const std::string& route, const FitOptions& options,
     return of && of->geometry == of_runs.front()->geometry;
   };
   if (!std::ranges::all_of(of_runs, known)) return line;
-  const auto words = std::span(words_of_body).first(std::size(words_of_body) - (law.drag < 0));
-  for (const auto& [name, value, sigma, is_fitted] : words) {
+  for (const NumberOfBody& number : numbers_of_body) {
+    if (number.value == &Body::wind && law.drag < 0) continue;
     std::vector<std::string> texts;
-    for (const auto& of : of_runs)
-      texts.push_back(to_text({of->body.*value, sigma ? of->body.*sigma : 0}));
+    for (const auto& of : of_runs) texts.push_back(to_text(number.of(of->body)));
     if (std::ranges::count(texts, texts.front()) == std::ssize(texts)) texts.resize(1);
-    if (is_fitted && options.*is_fitted) texts = {"fit"};
-    line += fmt::format(" {} {}", name, fmt::join(texts, ","));
+    for (const SceneNumber& fitted : scene_numbers)
+      if (fitted.value == number.value && options.*fitted.is_fitted) texts = {"fit"};
+    line += fmt::format(" {} {}", number.name, fmt::join(texts, ","));
   }
   if (of_runs.front()->geometry == Geometry::exact) line += " exact";
   return line;
@@ -338,7 +338,7 @@ const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& r
 
 std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) {
   Body given = contact.body;
-  for (const UncertainNumber& number : uncertain_numbers) {
+  for (const NumberOfBody& number : uncertain_numbers) {
     if (tool.given(number.value)) continue;
     given.*number.value = not_given;
     if (std::isnan(of.body.*number.value)) continue;

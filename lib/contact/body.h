@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "base/estimate.h"
 
@@ -24,19 +25,22 @@ struct Body {
   double steepness = 1;        ///< factor of that height
 };
 
-/// The numbers of a body that may have a standard uncertainty.
-struct UncertainNumber {
+/// A number of a body, as the tools name it.
+struct NumberOfBody {
   const char* name;
   double Body::*value;
-  double Body::*sigma;
+  double Body::*sigma;  ///< nullptr for one without an uncertainty
 
-  Estimate of(const Body& body) const { return {body.*value, body.*sigma}; }
+  Estimate of(const Body& body) const { return {body.*value, sigma ? body.*sigma : 0}; }
 };
-inline constexpr std::array<UncertainNumber, 4> uncertain_numbers = {
+inline constexpr std::array<NumberOfBody, 5> numbers_of_body = {
     {{"K", &Body::K, &Body::sigma_K},
      {"R", &Body::R, &Body::sigma_R},
      {"g", &Body::g, &Body::sigma_g},
-     {"slope", &Body::slope, &Body::sigma_slope}}};
+     {"slope", &Body::slope, &Body::sigma_slope},
+     {"wind", &Body::wind, nullptr}}};
+/// Those that may have a standard uncertainty.
+inline constexpr std::span uncertain_numbers = std::span(numbers_of_body).first<4>();
 
 /// The arm of F_H is A R. In the approximate geometry A = 1, as in the paper's simulations (Eqs. 11
 /// to 13); in the exact one A = sqrt(1 - D^2/R^2) (Eq. 8).

@@ -14,7 +14,7 @@ namespace rolling {
 
 namespace {
 
-void move(Route route, Run& run, const UncertainNumber& number, double by) {
+void move(Route route, Run& run, const NumberOfBody& number, double by) {
   if (is_trajectory(route)) {
     run.body.*number.value += by;
     return;
@@ -31,7 +31,7 @@ void move(Route route, Run& run, const UncertainNumber& number, double by) {
 /// A = 1 on a level mat v and x depend on a g/((K + 1) R) (Eq. 12), and D is (K + 1) R/g times the
 /// deceleration (Eq. 11).
 bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& options,
-              const UncertainNumber& number, const Estimate& value) {
+              const NumberOfBody& number, const Estimate& value) {
   if (options.a || options.fit_slope || number.value == &Body::slope) return false;
   return std::ranges::all_of(runs, [&](const Run& run) {
     const ShiftOf by = contact_of(route, run, options);
@@ -45,7 +45,7 @@ bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& optio
 std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& runs,
                                          const FitOptions& options, const Fitted& fit, bool agree) {
   std::vector<ErrorShare> all;
-  for (const UncertainNumber& number : uncertain_numbers) {
+  for (const NumberOfBody& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const Run& run : runs) {
       const Estimate value = number.of(contact_of(route, run, options).body);

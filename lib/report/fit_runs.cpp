@@ -116,7 +116,7 @@ FitRows read_rows(Tool& tool) {
 /// the rows: it is not noise.
 std::vector<CommonError> take_common(FitRows& rows) {
   std::vector<CommonError> all;
-  for (const UncertainNumber& number : uncertain_numbers) {
+  for (const NumberOfBody& number : uncertain_numbers) {
     std::map<std::pair<double, double>, CommonError> by_value;
     for (std::size_t i = 0; i < rows.runs.size(); ++i) {
       const auto [value, sigma] = number.of(rows.runs[i].body);
