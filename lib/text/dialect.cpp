@@ -151,7 +151,8 @@ std::span<const Field> Dialect::split(std::string_view line) {
   const char* const end = at + line.size();
   if (separator_ == '\0' && at == end) return {};
   for (;; ++at) {
-    at = take_text(at, end, next_field());
+    if (count_ == fields_.size()) fields_.emplace_back();
+    at = take_text(at, end, fields_[count_++]);
     if (at == end) return {fields_.data(), count_};
   }
 }

@@ -82,10 +82,6 @@ class Dialect {
  private:
   /// The separator allows decimal commas, and the minus sign U+2212.
   bool allows_foreign() const { return separator_ == '\t' || separator_ == ';'; }
-  Field& next_field() {
-    if (count_ == fields_.size()) fields_.emplace_back();
-    return fields_[count_++];
-  }
   const char* split_with_commas(std::string_view text, std::span<const Field>& fields);
   const char* split_with_points(std::string_view text, std::span<const Field>& fields);
   const char* take_text(const char* at, const char* end, Field&);
