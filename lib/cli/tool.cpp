@@ -87,8 +87,9 @@ void end_by_signal(int signal) {
   std::raise(signal);
 }
 
-}  // namespace
-
+/// From now on SIGINT, SIGTERM and SIGHUP write this line behind the output, unless nothing has
+/// been printed or standard output would block, before they end the tool. Signals that the caller
+/// has set to be ignored stay ignored. A line of more than 127 bytes changes nothing.
 void end_output_on_signals(const Output& out, const std::string& line) {
   if (line.size() >= last_line.size()) return;
   last_line_size = line.copy(last_line.data(), line.size());
@@ -97,6 +98,8 @@ void end_output_on_signals(const Output& out, const std::string& line) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
+
+}  // namespace
 
 void Tool::input() {
   const auto append_to = [](std::vector<std::string>& words) {

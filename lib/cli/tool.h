@@ -57,11 +57,6 @@ class LinesOfRuns {
   std::vector<Line> lines_;
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP write `last_line` behind the output, unless nothing has
-/// been printed or standard output would block, before they end the tool. Signals that the caller
-/// has set to be ignored stay ignored. A line of more than 127 bytes changes nothing.
-void end_output_on_signals(const Output& out, const std::string& last_line);
-
 /// The values that a numeric option accepts.
 struct Domain {
   const char* text;  ///< in the message "must be ...": "greater than 0"
@@ -78,9 +73,6 @@ inline constexpr Domain whole{"a whole number from 1 to 1e9", [](double x) {
 /// The number in a text; with `sigma` it may have an uncertainty (0.5+-0.005). Throws Error for
 /// another text and for a number outside the domain.
 double to_number(const std::string& text, const Domain&, double* sigma = nullptr);
-
-/// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83
-std::vector<Estimate> to_numbers(const std::string& text, const Domain&);
 
 /// The index of the value for run i of so many: there is one for all, or one for each.
 std::size_t value_of_run(std::string_view option, std::size_t values, std::size_t i,

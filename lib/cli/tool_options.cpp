@@ -107,17 +107,7 @@ std::string wrapped(std::string words) {
   return words;
 }
 
-}  // namespace
-
-double to_number(const std::string& text, const Domain& domain, double* sigma) {
-  Estimate read;
-  if (!(sigma ? parse_estimate(text, read) : parse_number(text, read.value)))
-    fail("'{}' is not a number (decimal point, no unit)", shown(text));
-  if (!domain.holds(read.value)) fail("'{}' must be {}", shown(text), domain.text);
-  if (sigma) *sigma = read.sigma;
-  return read.value;
-}
-
+/// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83
 std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) {
   const auto parts = split_names(text, ',');
   const auto both_whole = [](const auto& a, const auto& b) { return is_whole(a) && is_whole(b); };
@@ -132,6 +122,17 @@ std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) 
     one.value = to_number(part, domain, &one.sigma);
   }
   return values;
+}
+
+}  // namespace
+
+double to_number(const std::string& text, const Domain& domain, double* sigma) {
+  Estimate read;
+  if (!(sigma ? parse_estimate(text, read) : parse_number(text, read.value)))
+    fail("'{}' is not a number (decimal point, no unit)", shown(text));
+  if (!domain.holds(read.value)) fail("'{}' must be {}", shown(text), domain.text);
+  if (sigma) *sigma = read.sigma;
+  return read.value;
 }
 
 std::size_t value_of_run(std::string_view option, std::size_t values, std::size_t i,
