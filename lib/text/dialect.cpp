@@ -203,7 +203,6 @@ const char* Dialect::split_with_points(std::string_view text, std::span<const Fi
 
 /// Reads the field that begins at `at`, with any content; returns its end.
 const char* Dialect::take_text(const char* at, const char* end, Field& field) {
-  const char* const first = at;
   while (at != end && is_blank(*at) && *at != separator_) ++at;
   if (separator_ != '\0' && at != end && *at == quote) {
     std::string_view rest(at, end);
@@ -213,7 +212,8 @@ const char* Dialect::take_text(const char* at, const char* end, Field& field) {
     field.text = std::string_view(made_).substr(made_.size() - text->size());
     at = rest.data();
   } else {
-    while (at != end && (separator_ == '\0' ? !is_blank(*at) : *at != separator_)) ++at;
+    const char* const first = at;
+    at = separator_ == '\0' ? std::find_if(at, end, is_blank) : std::find(at, end, separator_);
     field.text = trim({first, at});
   }
   if (allows_foreign() && rewrite(field)) return at;
