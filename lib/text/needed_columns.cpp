@@ -87,7 +87,6 @@ void NeededColumns::begin_run(std::vector<Column> as_read, bool named, SaidUnits
 /// that of a clock; and where none is x or v by its name, the only speed as v, or else the only
 /// length as x. (A length beside a speed may be its accuracy.)
 void NeededColumns::serve_by_units() {
-  by_unit_.clear();
   if (!named_) return;
   const auto names = [&](const std::string& quantity) {
     return std::ranges::count(quantities_, quantity) > 0;
@@ -96,9 +95,7 @@ void NeededColumns::serve_by_units() {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < as_read_.size(); ++i)
       if (has_its_unit(as_read_[i]) && !known_quantity(quantities_[i])) found.push_back(i);
-    if (found.size() != 1) return;
-    quantities_[found.front()] = quantity;
-    by_unit_.insert(found.front());
+    if (found.size() == 1) quantities_[found.front()] = quantity;
   };
   for (const std::string quantity : {"t", "v", "x"})
     if (quantity == "t" ? !names("t") : !names("x") && !names("v"))
@@ -227,7 +224,8 @@ void NeededColumns::resolve(Needed& needed) {
       (!as_is && !known_quantity(quantity) && read.unit != needed.unit))
     fail("column {} is '{}', and '{}' in the runs before", *found + 1,
          shown(to_text({quantity, read.unit})), shown(to_text({needed.quantity, needed.unit})));
-  if (by_unit_.contains(*found) && quantity == needed.name)
+  const bool said = quantity == read.name || use_.contains(quantity);
+  if (known_quantity(quantity) && quantity == needed.name && !said)
     assume(*found, quantity, ", by its unit");
   needed.to_si = conversion(needed);
 }

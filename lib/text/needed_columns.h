@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,7 +87,6 @@ class NeededColumns {
   // The run.
   std::vector<Column> as_read_, in_output_;
   std::vector<std::string> quantities_;  // by --use, by its unit, else the name of each column
-  std::set<std::size_t> by_unit_;  // the columns that serve as a quantity for their unit alone
   bool named_ = false;
   SaidUnits said_;
 };
