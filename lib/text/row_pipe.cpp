@@ -123,18 +123,6 @@ void RowPipe::write_comments() {
   for (const std::string& comment : std::exchange(comments_, {})) out_.line(comment);
 }
 
-/// Writes a row with its numbers, which are finite, at this place of its text.
-inline void RowPipe::write_row(std::string_view text, std::size_t place) {
-  out_.text(text.substr(0, place));
-  for (const double number : numbers_) {
-    if (!appended_.empty()) out_.text('\t');
-    out_.number(number);
-  }
-  if (place < text.size()) out_.text(text.substr(place));
-  out_.end_line();
-  numbers_.clear();
-}
-
 /// Writes all lines before the first row that lacks a number. The comments of a run without rows,
 /// but for its history, are written with the head of the next run.
 void RowPipe::write_rows() {
@@ -155,7 +143,14 @@ void RowPipe::write_rows() {
       if (numbers_.size() < each) break;
       begin_part();
       write_head();
-      write_row(text, line.place);
+      out_.text(text.substr(0, line.place));
+      for (const double number : numbers_) {
+        if (!appended_.empty()) out_.text('\t');
+        out_.number(number);
+      }
+      out_.text(text.substr(line.place));
+      out_.end_line();
+      numbers_.clear();
       any_row_ = true;
       ++done_;
     }

@@ -93,7 +93,6 @@ class RowPipe {
   void begin_part();
   void write_head();
   void write_comments();
-  void write_row(std::string_view text, std::size_t place);
 
   Reader& in_;
   Output& out_;
