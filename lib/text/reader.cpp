@@ -71,11 +71,10 @@ bool Reader::find_run() {
   remarks_.clear();
   comments_.clear();
   place_.clear();
-  if (state_ != State::ended && next_head()) {
+  if (next_head()) {
     begin_run();
     return true;
   }
-  state_ = State::ended;
   if (!options_.run.empty() && !run_found_)
     fail("there is no run {} (runs: {})", shown(options_.run), runs_);
   if (left_out_ > 0 && !row_found_)

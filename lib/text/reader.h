@@ -105,7 +105,7 @@ class Reader {
   std::vector<std::string> warnings() const;
 
  private:
-  enum class State { found, in_run, between, ended };
+  enum class State { found, in_run, between };
 
   std::size_t add(std::string_view name, NeededColumns::Kind, std::string_view unit = {});
   void read_needed();
@@ -146,11 +146,14 @@ class Reader {
   std::size_t side_ = 0;
   std::size_t blank_rows_ = 0;  // side by side, since the last row of this run
   Dialect dialect_;
-  std::vector<std::string> comments_, remarks_;
+  std::vector<std::string> comments_;
+  std::vector<std::string> remarks_;
   std::size_t run_in_file_ = 0;  // number of the run in the file
   std::string place_;            // where() behind its last row
   std::string runs_;             // what the runs so far are called, where one is asked for
-  bool run_found_ = false, row_found_ = false, file_open_ = false;
+  bool run_found_ = false;
+  bool row_found_ = false;
+  bool file_open_ = false;
 
   // The present row.
   std::vector<double> values_;  // of the needed columns, by slot
@@ -158,11 +161,12 @@ class Reader {
   std::vector<Field> changed_fields_;
   bool large_time_ = false;
   std::size_t time_slot_ = no_column;
-  Clock clock_;                           // of this run
-  bool reads_clock_ = false;              // its times are read by it
-  double last_time_ = 0, last_step_ = 0;  // NaN before the first row of a run, and the second
-  std::string jump_;                      // of times that may be digits of a clock
-  std::size_t equal_times_ = 0;           // rows that have the time of the row before
+  Clock clock_;                  // of this run
+  bool reads_clock_ = false;     // its times are read by it
+  double last_time_ = 0;         // NaN before the first row of a run
+  double last_step_ = 0;         // NaN before the second
+  std::string jump_;             // of times that may be digits of a clock
+  std::size_t equal_times_ = 0;  // rows that have the time of the row before
   std::size_t left_out_ = 0;
 };
 
