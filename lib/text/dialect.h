@@ -91,8 +91,10 @@ class Dialect {
   /// Readings of a column that speak for a point between thousands, while no number has shown that
   /// it is a decimal one.
   struct Seen {
-    bool whole = false, three_digits = false;       // 0 to 999; one from 100 on
-    bool grouped = false, zero_at_the_end = false;  // 1.000; which no shortest number ends with
+    bool whole = false;            // 0 to 999
+    bool three_digits = false;     // 100 to 999
+    bool grouped = false;          // 1.000
+    bool zero_at_the_end = false;  // 1.100: no shortest number ends so
   };
 
   char separator_ = '\0';

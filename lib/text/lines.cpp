@@ -34,7 +34,8 @@ ssize_t read_some(int fd, char* to, std::size_t size) {
 }
 
 int open_for_reading(const std::string& name) {
-  struct stat in, out;  // before open(), which may return the number of a closed standard output
+  struct stat in;
+  struct stat out;  // before open(), which may return the number of a closed standard output
   if ((name == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(name.c_str(), &in)) == 0 &&
       ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(in.st_mode) && in.st_dev == out.st_dev &&
       in.st_ino == out.st_ino)

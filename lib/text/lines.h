@@ -83,12 +83,17 @@ class Lines {
   int fd_;
   bool has_size_ = false;  // a regular file, and not empty
   Bytes buffer_;
-  const char *kept_, *at_, *end_;           // in it: where put_back() returns to; ahead()
-  std::size_t kept_count_ = 0, count_ = 0;  // lines of the file before kept_ and at_
-  bool held_ = false, at_end_ = false;
+  const char* kept_;  // in it: where put_back() returns to
+  const char* at_;    // the next line
+  const char* end_;
+  std::size_t kept_count_ = 0;  // lines of the file before kept_
+  std::size_t count_ = 0;       // and before at_
+  bool held_ = false;
+  bool at_end_ = false;
   std::string_view text_;
   std::size_t number_ = 0;
-  std::string joined_, separators_{separators};
+  std::string joined_;
+  std::string separators_{separators};
 };
 
 /// The last line of the output of a tool that ends with an error after it has begun to print.

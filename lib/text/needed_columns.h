@@ -23,7 +23,8 @@ class NeededColumns {
     as_is    ///< under this name, and converted from its unit alone
   };
   struct Needed {
-    std::string name, quantity;  ///< the name in the call of add(); the quantity it serves as
+    std::string name;      ///< in the call of add()
+    std::string quantity;  ///< that it serves as
     Kind kind;
     /// Of a quantity that is not known; it may not change between runs. As it is: the SI unit.
     std::string unit{};
@@ -85,7 +86,8 @@ class NeededColumns {
   std::string assumed_;
 
   // The run.
-  std::vector<Column> as_read_, in_output_;
+  std::vector<Column> as_read_;
+  std::vector<Column> in_output_;
   std::vector<std::string> quantities_;  // by --use, by its unit, else the name of each column
   bool named_ = false;
   SaidUnits said_;

@@ -88,7 +88,8 @@ class Output {
   bool written_ = false;   // something has been written
   bool torn_ = false;      // the last write ended within a line
   // With `plain`:
-  std::string header_, run_;
+  std::string header_;
+  std::string run_;
   bool with_run_ = false;  // the table has a column for the run
 };
 

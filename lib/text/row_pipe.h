@@ -81,7 +81,8 @@ class RowPipe {
 
   /// Rows of one time that have become one.
   struct Joined {
-    double time, value;  // of the column that is replaced
+    double time;
+    double value;  // of the column that is replaced
   };
 
   bool next_row();
@@ -106,8 +107,10 @@ class RowPipe {
   std::queue<std::size_t> dropped_;           // indices of the rows among them to leave out
   std::queue<std::pair<std::size_t, std::string>> splits_;  // rows that begin a run, its name
   std::vector<double> numbers_;                             // of the first of these rows
-  // Counts of the rows of all runs: read; read before this run; written or left out.
-  std::size_t read_ = 0, run_begins_ = 0, done_ = 0;
+  // Counts of the rows of all runs:
+  std::size_t read_ = 0;
+  std::size_t run_begins_ = 0;  // read before this run
+  std::size_t done_ = 0;        // written or left out
   // The head of a run none of whose rows has been written.
   std::vector<std::string> comments_;
   std::string names_;
