@@ -18,8 +18,10 @@ TEST_CASE("fit report: runs that disagree are told with the run that stands out,
   CHECK(disagreement(found, runs, false) == before + after);  // b is fixed
   found.b = {-0.02, 0.003};
   CHECK(disagreement(found, runs, false) == before + ", in b by -0.02 +- 0.003" + after);
-  // Runs that agree as a whole: a check alone names one that is off, from 1 % on.
-  found.p = 0.02;
+  found.p = 0.0099;
+  CHECK_FALSE(disagreement(found, runs, false).empty());
+  // Runs that agree as a whole, from 1 % on: a check alone names one that is off, from 1 % on.
+  found.p = 0.0101;
   found.p_of_run = 0.004;
   CHECK(disagreement(found, runs, false).empty());
   CHECK(disagreement(found, runs, true) ==
