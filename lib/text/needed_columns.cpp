@@ -180,7 +180,7 @@ std::string NeededColumns::list() const {
   std::string list;
   for (std::size_t i = 0; i < as_read_.size(); ++i) {
     add_item(list, shown_name(i));
-    if (list.size() > 200) return list + ", ...";
+    if (list.size() > 200 && i + 1 < as_read_.size()) return list + ", ...";
   }
   return list;
 }
