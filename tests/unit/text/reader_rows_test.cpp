@@ -31,7 +31,11 @@ TEST_CASE("reader: times that may be digits of a clock are told", "[text]") {
   const auto jump = [](const std::string& times) { return told("t,v\n" + times).find("hhmmss"); };
   for (const char* times :
        {"101258,1\n101259,1\n101300,1\n", "105958,1\n105959,1\n110000,1\n",
-        "101258.8,1\n101259.3,1\n101259.8,1\n101300.3,1\n", "57,1\n58,1\n59,1\n100,1\n"})
+        "101258.8,1\n101259.3,1\n101259.8,1\n101300.3,1\n", "57,1\n58,1\n59,1\n100,1\n",
+        // the step before the jump and the one in it differ by less than half of a step
+        "58,1\n59,1\n100.4,1\n", "105958,1\n105959,1\n110000.4,1\n",
+        // up to a step and a half from the end of the minute
+        "58.9,1\n59.9,1\n100.9,1\n"})
     CHECK(jump(times) < 200);
   CHECK(jump("58,1\n59,1\n100,1\n") < 200);
   CHECK(told("Time (ms),v\n58,1\n59,1\n100,1\n").empty());
@@ -39,7 +43,8 @@ TEST_CASE("reader: times that may be digits of a clock are told", "[text]") {
   // The same times in seconds, and other gaps.
   for (const char* times :
        {"36778,1\n36779,1\n36780,1\n", "10,1\n11,1\n52,1\n", "58,1\n59,1\n101,1\n",
-        "0,1\n41,1\n82,1\n", "0,1\n4041,1\n", "59,1\n100,1\n101,1\n"})
+        "0,1\n41,1\n82,1\n", "0,1\n4041,1\n", "59,1\n100,1\n101,1\n", "58,1\n59,1\n100.6,1\n",
+        "105958,1\n105959,1\n110000.6,1\n", "60.4,1\n61.4,1\n102.4,1\n"})
     CHECK(jump(times) == std::string::npos);
 }
 
