@@ -15,15 +15,21 @@ awk '/^rubber mat, (shell|cylinder)/ { K = /shell/ ? 0.83 : 0.5 } /^felt mat/ { 
   END { exit seen != 2 }' "$scratch/out" ||
     { cat "$scratch/out"; echo "what K and R bring to a"; exit 1; }
 cp samples/*.csv samples/*.toml samples/table1.sh samples/script.sh "$scratch"
-sed -i 's/1\.87e-3/2.30e-3/' "$scratch/CR.toml"
-if "$scratch/table1.sh" >"$scratch/out"; then
-  cat "$scratch/out"; echo "a wrong a is not noticed"; exit 1
-fi
+# An a of the scene 3.6 standard uncertainties from that of x(t) passes, and one that is 4.7 away does
+# not; a balance that is open by 4 % passes, and one by 6 % does not.
+verdict() { "$scratch/table1.sh" "$scratch/$1.csv" >"$scratch/out" 2>&1 && echo passes || echo fails; }
+for wanted in '1.95e-3 passes' '1.975e-3 fails'; do
+  sed "s/1\.87e-3/${wanted% *}/" samples/CR.toml >"$scratch/CR.toml"
+  [ "$(verdict CR)" = "${wanted#* }" ] || { cat "$scratch/out"; echo "an a of $wanted: it does not"; exit 1; }
+done
+grep -q '^  trajectory x(t).*-4\.7 .*TOO FAR' "$scratch/out" || { cat "$scratch/out"; echo "a is not what is noticed"; exit 1; }
 cp samples/CR.toml "$scratch"
-sed -i 's/print "-a " \$1 /print "-a " 1.1 * $1 /' "$scratch/table1.sh"
-cmp -s samples/table1.sh "$scratch/table1.sh" && { echo "nothing was changed"; exit 1; }
-if "$scratch/table1.sh" >"$scratch/out" 2>&1; then cat "$scratch/out";
-  echo "an open balance is not noticed"; exit 1; fi
+for wanted in '1.04 passes' '1.06 fails'; do
+  sed "s/print \"-a \" \$1 /print \"-a \" ${wanted% *} * \$1 /" samples/table1.sh >"$scratch/table1.sh"
+  cmp -s samples/table1.sh "$scratch/table1.sh" && { echo "nothing was changed"; exit 1; }
+  [ "$(verdict CF)" = "${wanted#* }" ] || { cat "$scratch/out"; echo "a balance of $wanted: it does not"; exit 1; }
+done
+grep -q 'OPEN' "$scratch/out" || { cat "$scratch/out"; echo "the balance is not what is noticed"; exit 1; }
 # A wrong K of the shell cancels in the shell's own balance; the ledger of the cylinder shows it.
 cp samples/table1.sh "$scratch"
 sed -i 's/0\.83/0.95/' "$scratch/SF.toml"
