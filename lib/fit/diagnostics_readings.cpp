@@ -55,9 +55,7 @@ OffReadings off_of_run(const Fitted& fit, std::size_t r, std::span<const double>
     if (found.count == 0) found.distance = std::max(found.distance, size);
     if (size < by_chance) break;
     // Smooth residuals are those of another law, which no single reading makes.
-    if (size < levels::off || lagged(others, runs, 1) > 0.5 * dot(others, others) ||
-        static_cast<double>(n) * gsl_cdf_tdist_Q(size, freedom) > levels::off_chance / 2)
-      continue;
+    if (size < levels::off || lagged(others, runs, 1) > 0.5 * dot(others, others)) continue;
     const double furthest = std::sqrt(first / squares * freedom);
     found = {r, out, run.origin + run.t[order[0]], furthest};
   }

@@ -33,9 +33,9 @@ inline constexpr double likely = 3;
 /// The same for the best of the eight filters of sensors. At 3 the 95 % intervals of a and b held
 /// in .915 and .920 of 400 runs of white speeds, at 5 and without a search in .920 and .927.
 inline constexpr double likely_filter = 5;
-/// A reading is off if it lies at least 10 standard deviations from the motion, and if noise alone
-/// puts a reading so far in at most one run of 10,000.
-inline constexpr double off = 10, off_chance = 1e-4;
+/// A reading is off if it lies at least 10 standard deviations from the motion, with 12 degrees of
+/// freedom or more: by Student's t noise alone does that in less than one run of 100,000.
+inline constexpr double off = 10;
 /// Readings on a grid are not rounded to it if rounding alone would leave residuals as small with
 /// at most this probability.
 inline constexpr double not_rounded = 0.001;
