@@ -15,7 +15,7 @@ unset CDPATH
 long=false
 [ "${1:-}" != --long ] || { long=true && shift; }
 rows=${1:-5000000} rounds=${2:-7}
-speed=$PWD/build/bench/speed approx=$PWD/tests/approx.awk tools=$(dirname "$(command -v smooth)")
+speed=$PWD/build/bench/speed approx=$PWD/tests/approx.awk
 mkdir -p build/speed
 cd build/speed
 body='-K 0.5 -R 0.04' ledger='-m 1.375 -K 0.5 -R 0.04'
@@ -117,8 +117,8 @@ row() {  # WHAT PEER RATE RATIO LEAST GREATEST GOAL DISTURBED: a goal is at leas
 }
 # Ratio of the peer's time to ours; `inverse`: of ours to the other's.
 against() {  # WHAT PEER ROWS GOAL OURS THEIRS [user|cpu|elapsed [inverse]]
-  local a b r least greatest disturbed
-  read -r a b r least greatest disturbed < <("$speed" compare "$rounds" "${7:-user}" "$5" "$6")
+  local a r least greatest disturbed
+  read -r a _ r least greatest disturbed < <("$speed" compare "$rounds" "${7:-user}" "$5" "$6")
   local rate
   rate=$(mawk -v n="$3" -v t="$a" 'BEGIN { printf "%.2f", n / t / 1e6 }')
   [ "${8:-}" != inverse ] ||
