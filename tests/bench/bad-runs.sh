@@ -71,6 +71,19 @@ K_of_two_bodies_exchanged() {
   simulate --scene SR.toml --sensor pasco --seed "$seed" | coast >"$scratch/S"
   fitpower --check -K 0.83,0.5 -R 0.04 "$scratch/C" "$scratch/S"
 }
+# A car in a wind of 2 m/s along the road, which the fit does not know.
+coast_down() {  # SPEED
+  printf '# d0[m]\td2[s^2/m]\n3e-3\t8.1e-6\n' |
+    simulate --law - -K 0.04 -R 0.3 --v0 "$1" --wind 2 --dt 0.5 --until 60 --columns t,v | awk -v OFS='\t' -v seed="$((seed * 7919))" '
+      function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
+      BEGIN { uniform() }
+      /^##/ { next }
+      !/^#/ { $2 += 0.1 * (uniform() - uniform()) }
+      { print }'
+}
+of_car() { fitpower --check --route velocity --law 'd0+d2*v^2' -K 0.04 -R 0.3; }
+wind() { coast_down 25 | of_car; }
+wind_both_ways() { { coast_down 25; echo; coast_down -25; } | of_car; }
 
 row() {  # KIND FUNCTION
   local count=(0 0 0) silent=0 status
@@ -97,6 +110,8 @@ row '10 % more D in one of five' one_of_five
 row 'one frame in 23 dropped' dropped_frames
 row 'K of two bodies exchanged' K_of_two_bodies_exchanged
 row 'tilt of 2 mm/m, both ways' tilt_both_ways
+row 'wind of 2 m/s, both ways' wind_both_ways
 row 'tilt of 5 mm/m, one way -' tilt
+row 'wind of 2 m/s, one way -' wind
 row 'K of another body -' other_K
 row 'R of another body -' other_R
