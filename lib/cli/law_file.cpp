@@ -147,7 +147,8 @@ std::vector<Column> columns_of(const LawForm& form) {
       std::string& side = power > 0 ? above : below;
       side += std::abs(power) == 1 ? unit : fmt::format("{}^{}", unit, std::abs(power));
     }
-    all.push_back({c.name, above + (below.empty() ? "" : "/" + below)});
+    if (!below.empty()) above += fmt::format("/{}", below);
+    all.push_back({c.name, above});
   }
   return all;
 }

@@ -158,7 +158,8 @@ Tool::~Tool() = default;
 
 void Tool::add(const std::string& names, const std::string& type, const std::string& help, Set set,
                Values values) {
-  CLI::callback_t take = [names, set = std::move(set)](const std::vector<std::string>& texts) {
+  const CLI::callback_t take =
+      [names, set = std::move(set)](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) try {
         set(without_mark(text));
       } catch (const Error& error) {
@@ -168,7 +169,7 @@ void Tool::add(const std::string& names, const std::string& type, const std::str
       }
     return true;
   };
-  app_->add_option(names, std::move(take), wrapped(help))
+  app_->add_option(names, take, wrapped(help))
       ->type_name(type)
       ->expected(values == Values::many ? CLI::detail::expected_max_vector_size
                                         : static_cast<int>(values))

@@ -335,7 +335,7 @@ std::vector<std::size_t> Model::rows() const {
   return rows;
 }
 
-System system_of(Model model, std::shared_ptr<const Noise> noise) {
+System system_of(const Model& model, const std::shared_ptr<const Noise>& noise) {
   const Parameters& q = model.parameters();
   return {model.rows(), q.own(), q.shared(),
           [model, noise, columns = q.columns()](const std::vector<double>& theta,

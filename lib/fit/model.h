@@ -204,6 +204,7 @@ class Model {
 
 /// The least-squares problem of a model: the residuals H raw - y and their derivatives, whitened
 /// if the noise is known.
-System system_of(Model, std::shared_ptr<const Noise> = std::make_shared<const Noise>());
+System system_of(const Model&,
+                 const std::shared_ptr<const Noise>& = std::make_shared<const Noise>());
 
 }  // namespace rolling

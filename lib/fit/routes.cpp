@@ -56,8 +56,8 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
       starts.back().push_back(part * v / scene_numbers[place_of_wind].unit);
     }
   }
-  for (const auto& start : narrowed(fit, std::move(starts)))
-    improve(fit.minimum, fit.system(), start);
+  starts = narrowed(fit, std::move(starts));
+  for (const auto& start : starts) improve(fit.minimum, fit.system(), start);
   if (was_found(fit)) read_off(fit);
   return fit;
 }

@@ -70,7 +70,7 @@ bool Integrator::advance(double t, unsigned long& steps, const Event& event) {
     step(t, steps);
     const double now = event(y_);
     if (before != 0 && (now == 0 || (before < 0) != (now < 0))) {
-      if (now != 0) locate(t_before, std::move(y_before), event, steps);
+      if (now != 0) locate(t_before, y_before, event, steps);
       return true;
     }
     before = now;
@@ -80,7 +80,7 @@ bool Integrator::advance(double t, unsigned long& steps, const Event& event) {
 
 /// Locates the sign change within the last step by the Illinois form of regula falsi. Each trial
 /// integrates anew from the beginning of the step, so its state is as accurate as any other.
-void Integrator::locate(double t_before, std::vector<double> y_before, const Event& event,
+void Integrator::locate(double t_before, const std::vector<double>& y_before, const Event& event,
                         unsigned long& steps) {
   double lo = t_before, f_lo = event(y_before), hi = t_, f_hi = event(y_);
   const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;

@@ -64,7 +64,8 @@ class Integrator {
     unsigned long derivatives = 0;
   };
   void step(double t, unsigned long& steps);
-  void locate(double t_before, std::vector<double> y_before, const Event&, unsigned long& steps);
+  void locate(double t_before, const std::vector<double>& y_before, const Event&,
+              unsigned long& steps);
 
   std::unique_ptr<Calls> calls_;
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;

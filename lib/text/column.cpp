@@ -64,7 +64,7 @@ std::string take_unit_in_words(std::string_view& name) {
   constexpr std::string_view in = " in ";
   const auto at = name.rfind(in);
   if (at == std::string_view::npos || !is_unit(name.substr(at + in.size()))) return {};
-  const std::string unit = plain_unit(trim(name.substr(at + in.size())));
+  std::string unit = plain_unit(trim(name.substr(at + in.size())));
   name = trim(name.substr(0, at));
   return unit;
 }
@@ -140,7 +140,7 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     }
     const auto begin = at;
     for (; at < line.size() && (separator ? line[at] != separator : !is_blank(line[at])); ++at)
-      if (opening.find(line[at]) != std::string_view::npos && at < last_bracket)
+      if (at < last_bracket && opening.find(line[at]) != std::string_view::npos)
         at = line.find_first_of(")]", at);
     const std::string_view name = trim(line.substr(begin, at - begin));
     // Behind a name that is a bracket itself, as in a line of units, another name begins.

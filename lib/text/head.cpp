@@ -220,7 +220,8 @@ class HeadReader {
     std::vector<const HeadLine*> bare;
     for (const HeadLine& line : above_)
       if (line.is_bare()) bare.push_back(&line);
-    if (bare.size() > 1 && are_units_of(bare.end()[-2]->names.columns, bare.back()->names.columns))
+    if (const auto n = bare.size();
+        n > 1 && are_units_of(bare[n - 2]->names.columns, bare[n - 1]->names.columns))
       bare.pop_back();
     const auto has_known_word = [](const HeadLine& line) {
       return line.is_bare() && std::ranges::any_of(words_of(line.text), is_known);
