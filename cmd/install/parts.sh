@@ -25,7 +25,9 @@ set -- $(${CXX:-g++} -E -P -x c++ - <<'END' | tail -n 1 | tr -d '"'
 CLI11_VERSION FMT_VERSION GSL_VERSION __GLIBC__ __GLIBC_MINOR__ __VERSION__
 END
 )
-fmt=$(($2 / 10000)).$(($2 / 100 % 100)).$(($2 % 100))
+# The header of fmt 10.1.1 calls itself 10.1.0: the package knows better, where there is one.
+fmt=$(dpkg-query -W -f '${Version}' libfmt-dev 2>/dev/null | sed 's/[+-].*//') || fmt=''
+fmt=${fmt:-$(($2 / 10000)).$(($2 / 100 % 100)).$(($2 % 100))}
 compiler=${6%%.*}
 
 # name, version, licence, Debian's package

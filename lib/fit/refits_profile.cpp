@@ -86,9 +86,10 @@ class Profile {
   Visit start() const { return {0, 0, 0, fit_.minimum}; }
   /// The number at another theta.
   FittedNumber at(const std::vector<double>& theta) const {
-    // In two statements: where memory fails in the second part of an aggregate, g++ 12 destroys the
-    // first part twice.
-    Fitted there{.minimum = {theta}};
+    // In three statements: where memory fails in a later part of an aggregate, g++ 12 and 14
+    // destroy a part twice.
+    Fitted there;
+    there.minimum.theta = theta;
     there.model = fit_.model;
     read_off(there);
     return there.numbers()[j_];

@@ -118,8 +118,7 @@ set arrow from corner, under to corner, y - 50 nohead lw 1
 set arrow from corner, y - 50 to x(4) - wide/2, y - 50 as 3
 set label 'I_{E1} = '.power(I_E1).', not drawn to scale' at x(1) + 10, under + 14 left
 # The key.
-round(x) = 10**floor(log10(x))
-unit = round(P_diss/1.5)
+unit = 10**floor(log10(P_diss/1.5))
 set object rectangle from 30, 88 to 60, 88 + unit*pixels fc rgb 0xF5D0A0 fs solid 1 border rgb black lw 1
 set label sprintf('an arrow of %g %s; all powers are in %s', scale*unit, watt, watt) at 72, 88 + unit*pixels/2 left
 set arrow from 45, 80 to 45, 50 as 1

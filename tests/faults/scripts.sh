@@ -92,7 +92,7 @@ for script in "${scripts[@]}"; do
     */live.sh) faults "$script" -K 0.5 -R 0.04 -T dumb /nonexistent ;;
     */setup.sh) PATH="$scratch/path:$PATH" faults "$script" table1 ;;
     */install.sh) DESTDIR=$made makes "$script" install ;;
-    */deb.sh) makes "$script" ;;
+    */deb.sh) if command -v dpkg-shlibdeps >/dev/null; then makes "$script"; else faults "$script"; fi ;;
     */static.sh) makes "$script" any ;;
     */html.sh) makes "$script" "$made/html" ;;
     */parts.sh) makes "$script" static "$made" ;;
