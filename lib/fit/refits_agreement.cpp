@@ -168,7 +168,7 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<Run>&
 /// finds to agree do agree.
 void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitted>>& own,
                          const Fitted& joint) {
-  const auto residuals = by_run(joint.minimum.f, joint.system().runs);
+  const auto residuals = by_run(joint.minimum.f, joint.model.rows());
   double ratio = 0;
   double p = 1;
   std::size_t runs = 0;
@@ -179,7 +179,7 @@ void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitte
     if (residuals[r].size() != alone.f.size()) return;
     const auto freedom = static_cast<double>(own[r]->degrees_left());
     const double rise = std::max(dot(residuals[r], residuals[r]) - alone.rss, 0.0);
-    parameters = own[r]->system().shared;
+    parameters = own[r]->parameters().shared();
     ratio += ratio_of_run(rise / alone.rss * freedom, freedom, parameters);
     p = std::min(p, p_of_run(rise / alone.rss * freedom, freedom, parameters));
     ++runs;
