@@ -16,7 +16,8 @@ done
 prefix=${PROGRAM_PREFIX-}
 mkdir -p build
 trap '' INT TERM HUP  # not before the folder has its name
-folder=$(mktemp -d build/deb.XXXXXX)
+folder=build/deb.$$
+mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
 trap 'exit 130' INT TERM HUP
 tree=$folder/debian/rolling

@@ -15,7 +15,8 @@ site='rolling: the law of a rolling body, with uncertainties'
   { echo "html: $1/index.html is not of this site: choose another folder" >&2; exit 2; }
 mkdir -p -- "$1"
 trap '' INT TERM HUP  # not before the folder has its name
-to=$(cd -- "$1" && mktemp -d "$PWD/.new.XXXXXX")
+to=$(cd -- "$1" && pwd)/.new.$$
+mkdir "$to"  # or it fails: what is removed was made here
 trap 'rm -rf "$to"' EXIT
 trap 'exit 130' INT TERM HUP
 # In the order in which one reads them.

@@ -49,7 +49,8 @@ put() {
   to=$1
   shift
   mkdir -p "$to"
-  new=$(mktemp -d "$to/.new.XXXXXX")
+  mkdir "$to/.new.$$"  # or it fails: what is removed was made here
+  new=$to/.new.$$
   cp -p "$@" "$new"
   mv -f "$new"/* "$to"
   rmdir "$new"

@@ -11,7 +11,8 @@ cd "$(dirname "$0")/../.."
 [ $# = 2 ] && [ -d "$2" ] || { echo 'parts.sh static|shared FOLDER' >&2; exit 2; }
 linked=$1
 trap '' INT TERM HUP  # not before the folder has its name
-folder=$(mktemp -d "$2/.new.XXXXXX")
+folder=$2/.new.$$
+mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
 trap 'exit 130' INT TERM HUP
 to=$2

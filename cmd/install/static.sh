@@ -10,7 +10,8 @@ case ${1-} in '' | *[!A-Za-z0-9_]*) echo "static: '${1-}' is no architecture" >&
 name=rolling-$(bin/smooth --version | cut -d ' ' -f 3)-linux-$1
 mkdir -p build
 trap '' INT TERM HUP  # not before the folder has its name
-folder=$(mktemp -d build/archive.XXXXXX)
+folder=build/archive.$$
+mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
 trap 'exit 130' INT TERM HUP
 bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \

@@ -15,10 +15,10 @@ namespace rolling {
 /// Compares the runs of a joint fit. Each run is fitted by itself, with a and b of its own (the
 /// slope of the mat is fixed at that of the joint fit); its law (ln a, b) is compared with the mean
 /// of all, weighted by the inverse covariances of the runs' own errors. Its p is that of
-/// the law with which all agree best. Runs of which the sums of squares say so agree, too: where
-/// the model bends over the errors of a run, the covariance of its law is no measure of distances.
-/// Returns nothing where fewer than two runs determine a law by
-/// themselves, or where a and b are fixed.
+/// the law with which all agree best. A second test compares the sums of squares of the runs under
+/// the common law and under their own laws. It holds also if the model is curved over the errors of
+/// a run; the runs disagree only if both tests say so. Returns nothing if fewer than two runs
+/// determine a law by themselves, or if a and b are fixed.
 ///
 /// `errors` are those of the joint fit. Where the runs agree, `errors` and `joint` stay as they
 /// are. Where they disagree, the law of `joint` becomes that of the mean of b and of the mean of

@@ -162,10 +162,9 @@ std::vector<std::optional<Fitted>> own_fits(Route route, const std::vector<Run>&
 }
 
 /// Compares the runs by their readings: by how much the sum of squares of a run is larger under the
-/// common law than under its own, in units of the variance of its noise. If the model bends over
-/// the errors of a run, as that of d0 + a v^b does in a single roll, the covariance of its own law
-/// is no measure of its distance to another one; this sum is. Runs that one of the two measures
-/// finds to agree do agree.
+/// common law than under its own, in units of the variance of its noise. The covariance of a run's
+/// law assumes a linear model, which that of d0 + a v^b is not over the errors of a single roll;
+/// the sum of squares assumes none. The runs disagree only if both tests say so.
 void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitted>>& own,
                          const Fitted& joint) {
   const auto residuals = by_run(joint.minimum.f, joint.model.rows());

@@ -139,7 +139,8 @@ Leg::Rate Leg::rate(double u) const {
   const double lift = A * R * body_.slope;
   const double terms_of_net =
       std::abs(D) + std::abs(lift) + std::abs(D_by_log_u) + std::abs(law_.blast());
-  r.noise = at_radius ? 1 : terms_of_net / std::abs(D + lift) + (exact ? 1 / (A * A) : 0);
+  r.noise = at_radius ? 1 : terms_of_net / std::abs(D + lift);
+  if (exact && !at_radius) r.noise += 1 / (A * A);
   r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
   r.imbalance = terms_of_net > 0 ? std::abs(D + lift) / terms_of_net : 0;
   return r;
