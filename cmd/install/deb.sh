@@ -19,7 +19,7 @@ trap '' INT TERM HUP  # not before the folder has its name
 folder=build/deb.$$
 mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
-trap 'exit 130' INT TERM HUP
+trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
 tree=$folder/debian/rolling
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 architecture=$(dpkg --print-architecture)

@@ -18,7 +18,7 @@ trap '' INT TERM HUP  # not before the folder has its name
 to=$(cd -- "$1" && pwd)/.new.$$
 mkdir "$to"  # or it fails: what is removed was made here
 trap 'rm -rf "$to"' EXIT
-trap 'exit 130' INT TERM HUP
+trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
 # In the order in which one reads them.
 pages=(man/rolling.7 man/smooth.1 man/differentiate.1 man/shift-from-accel.1 man/fitpower.1
   man/simulate.1 man/energy-ledger.1 man/rolling-recipes.7 man/rolling-columns.5 man/rolling-fits.7

@@ -35,7 +35,7 @@ trap '' INT TERM HUP  # not before the folder has its name
 scratch=$(mktemp -d)
 new=$scratch/new
 trap 'rm -rf "$scratch" "$new"' EXIT
-trap 'exit 130' INT TERM HUP
+trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
 : >"$scratch/files"
 
 # stage PATH: standard input is to become this file.

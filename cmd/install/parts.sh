@@ -14,7 +14,7 @@ trap '' INT TERM HUP  # not before the folder has its name
 folder=$2/.new.$$
 mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
-trap 'exit 130' INT TERM HUP
+trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
 to=$2
 rolling=$(bin/smooth --version | cut -d ' ' -f 3)
 # shellcheck disable=SC2046  # words

@@ -13,7 +13,7 @@ trap '' INT TERM HUP  # not before the folder has its name
 folder=build/archive.$$
 mkdir "$folder"  # or it fails: what is removed was made here
 trap 'rm -rf "$folder"' EXIT
-trap 'exit 130' INT TERM HUP
+trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
 bindir=/bin mandir=/share/man datadir=/share docdir=/ PROGRAM_PREFIX='' \
   DESTDIR=$folder/$name cmd/install/install.sh install >/dev/null
 rm "$folder/$name/installed-files"

@@ -50,10 +50,16 @@ unharmed() {
   diff -r --no-dereference "$1.before" "$1" >"$scratch/harm" ||
     { complain "harm by ${*:2}: $(head -n 5 "$scratch/harm")" && exit 1; }
 }
+# Signals end the script and its tools, more than one, as by a hand that holds Ctrl-C.
+ended='set -m
+  "$@" & script=$!
+  sleep 0.2
+  for _ in 1 2 3 4 5 6 7 8; do kill -TERM -- -$script 2>/dev/null; sleep 0.001; done
+  wait $script'
 # faults SCRIPT OPERAND...: each of them.
 faults() {
   attempt 'no TMPDIR' env TMPDIR=/nonexistent "$@"
-  attempt 'ended in the middle' timeout --preserve-status -k 50 0.2 "$@"
+  attempt 'ended in the middle' bash -c "$ended" ended "$@"
   [ ! "$mounts" ] || attempt 'full TMPDIR' env TMPDIR="$scratch/full" "$@"
 }
 # makes SCRIPT OPERAND...: the same of a script that writes to $made, where the same stands before.
