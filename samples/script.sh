@@ -106,20 +106,27 @@ place() {
   done
   trap '' INT TERM HUP
   placed=$(mktemp -d "$to/.new.XXXXXX") || wrong "$to cannot be written"
-  trap end_once INT TERM HUP
+  trap end_by_signal INT TERM HUP
   cp -- "$@" "$placed" || wrong "$to cannot be written"
   mv -f -- "$placed"/* "$to"
 }
 # make_scratch makes $scratch, a folder of this run. At the end it and files that were not placed are
 # removed, and nothing else. A tool that ends at the same moment may leave one more file: then again.
-# A signal ends the script once: a second one would stop the removal.
-end_once() { trap '' INT TERM HUP && exit 130; }
-remove_scratch() { rm -rf "$scratch" ${placed:+"$placed"}; }
+# A second signal may come before it is ignored, and ends the function: each call removes the whole.
+end_by_signal() {
+  trap '' INT TERM HUP
+  remove_scratch
+  exit 130
+}
+remove_scratch() {
+  rm -rf "$scratch" ${placed:+"$placed"} 2>/dev/null ||
+    { sleep 0.2; rm -rf "$scratch" ${placed:+"$placed"}; }
+}
 make_scratch() {
   trap '' INT TERM HUP  # not before the folder has its name
   scratch=$(mktemp -d) && [ -d "$scratch" ] || wrong 'mktemp makes no folder: see TMPDIR'
   placed=''
-  trap 'remove_scratch 2>/dev/null || { sleep 0.2; remove_scratch; }' EXIT
-  trap end_once INT TERM HUP
+  trap remove_scratch EXIT
+  trap end_by_signal INT TERM HUP
   case $scratch in /*) ;; *) scratch=$PWD/$scratch ;; esac
 }

@@ -15,12 +15,9 @@ done
 
 prefix=${PROGRAM_PREFIX-}
 mkdir -p build
-trap '' INT TERM HUP  # not before the folder has its name
-folder=build/deb.$$
-mkdir "$folder"  # or it fails: what is removed was made here
-trap 'rm -rf "$folder"' EXIT
-trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
-tree=$folder/debian/rolling
+. cmd/install/scratch.sh
+own scratch "build/deb.$$"
+tree=$scratch/debian/rolling
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 architecture=$(dpkg --print-architecture)
 # git refuses where there is no repository, and in one that belongs to another user.
@@ -65,8 +62,8 @@ END
 
 mkdir "$tree/DEBIAN"
 # dpkg-shlibdeps wants to see this one.
-printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$folder/debian/control"
-depends=$(cd "$folder" && dpkg-shlibdeps -O debian/rolling/usr/bin/*)
+printf 'Source: rolling\n\nPackage: rolling\nArchitecture: any\n' >"$scratch/debian/control"
+depends=$(cd "$scratch" && dpkg-shlibdeps -O debian/rolling/usr/bin/*)
 cat >"$tree/DEBIAN/control" <<END
 Package: rolling
 Version: $version
@@ -88,6 +85,6 @@ END
 (cd "$tree" && find usr -type f -print0 | sort -z | xargs -0 md5sum >DEBIAN/md5sums)
 find "$tree" -exec touch -h -d "@$moment" {} +
 package=rolling_${version}_$architecture.deb
-SOURCE_DATE_EPOCH=$moment dpkg-deb --root-owner-group --build "$tree" "$folder/$package" >"$folder/said"
-mv "$folder/$package" build
+SOURCE_DATE_EPOCH=$moment dpkg-deb --root-owner-group --build "$tree" "$scratch/$package" >"$scratch/said"
+mv "$scratch/$package" build
 echo "build/$package: $(wc -c <"build/$package") bytes"

@@ -14,11 +14,8 @@ site='rolling: the law of a rolling body, with uncertainties'
 [ ! -e "$1/index.html" ] || grep -qF "$site" "$1/index.html" ||
   { echo "html: $1/index.html is not of this site: choose another folder" >&2; exit 2; }
 mkdir -p -- "$1"
-trap '' INT TERM HUP  # not before the folder has its name
-to=$(cd -- "$1" && pwd)/.new.$$
-mkdir "$to"  # or it fails: what is removed was made here
-trap 'rm -rf "$to"' EXIT
-trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
+. cmd/install/scratch.sh
+own scratch "$(cd -- "$1" && pwd)/.new.$$"
 # In the order in which one reads them.
 pages=(man/rolling.7 man/smooth.1 man/differentiate.1 man/shift-from-accel.1 man/fitpower.1
   man/simulate.1 man/energy-ledger.1 man/rolling-recipes.7 man/rolling-columns.5 man/rolling-fits.7
@@ -29,7 +26,7 @@ about() {
   sed -n 's/^\.Nd //p' "$1" | sed 's/\\-/-/g; s/\\(ha/^/g; s/&/\&amp;/g; s/</\&lt;/g'
 }
 
-cat >"$to/pages.css" <<'END'
+cat >"$scratch/pages.css" <<'END'
 :root { --text: #1a1a1a; --page: #fff; --box: #f3f1ec; --link: #005a9c; --faint: #555;
   --edge: rgba(0, 0, 0, .35); }
 @media (prefers-color-scheme: dark) {
@@ -78,9 +75,9 @@ for page in "${pages[@]}"; do
       s/^<html>/<html lang="en">/
       s|<body>|<body><p><a href="index.html">rolling: all pages</a></p>|
       s/(<code class="Li">|[ (])(--?[a-z][a-z0-9-]*)/\1<span class="option">\2<\/span>/g' \
-      >"$to/$name.html"
+      >"$scratch/$name.html"
 done
-cp README.md "$to/README.txt"
+cp README.md "$scratch/README.txt"
 
 {
   cat <<END
@@ -105,5 +102,5 @@ END
       "$name" "${name%.*}" "${name##*.}" "$(about "$page")"
   done
   printf '</table>\n</body>\n</html>\n'
-} >"$to/index.html"
-mv -f -- "$to"/* "$1"
+} >"$scratch/index.html"
+mv -f -- "$scratch"/* "$1"

@@ -31,11 +31,8 @@ case ${DESTDIR-} in '' | /*) root=${DESTDIR-} ;; *) root=$PWD/$DESTDIR ;; esac
 docdir=${docdir%/}
 lists=$root$docdir/installed-files
 list=$lists${prefix:+-}$prefix
-trap '' INT TERM HUP  # not before the folder has its name
-scratch=$(mktemp -d)
-new=$scratch/new
-trap 'rm -rf "$scratch" "$new"' EXIT
-trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
+. cmd/install/scratch.sh
+own scratch "${TMPDIR:-/tmp}/rolling.$$"
 : >"$scratch/files"
 
 # stage PATH: standard input is to become this file.
@@ -49,8 +46,7 @@ put() {
   to=$1
   shift
   mkdir -p "$to"
-  mkdir "$to/.new.$$"  # or it fails: what is removed was made here
-  new=$to/.new.$$
+  own new "$to/.new.$$"
   cp -p "$@" "$new"
   mv -f "$new"/* "$to"
   rmdir "$new"

@@ -10,11 +10,8 @@ unset CDPATH
 cd "$(dirname "$0")/../.."
 [ $# = 2 ] && [ -d "$2" ] || { echo 'parts.sh static|shared FOLDER' >&2; exit 2; }
 linked=$1
-trap '' INT TERM HUP  # not before the folder has its name
-folder=$2/.new.$$
-mkdir "$folder"  # or it fails: what is removed was made here
-trap 'rm -rf "$folder"' EXIT
-trap 'trap "" INT TERM HUP; exit 130' INT TERM HUP  # once: a second one would stop the removal
+. cmd/install/scratch.sh
+own scratch "$2/.new.$$"
 to=$2
 rolling=$(bin/smooth --version | cut -d ' ' -f 3)
 # shellcheck disable=SC2046  # words
@@ -60,7 +57,7 @@ source_of() {  # PACKAGE: where its source is
 $parts
 END
   printf '\n  ]\n}\n'
-} >"$folder/parts.cdx.json"
+} >"$scratch/parts.cdx.json"
 {
   echo "Copyright (C) $(date -u -d "@$(cmd/install/date.sh)" +%Y) the authors of rolling"
   echo
@@ -80,5 +77,5 @@ END
     printf '\n==== LGPL-2.1\n\n'
     cat /usr/share/common-licenses/LGPL-2.1 || true
   fi
-} >"$folder/NOTICES"
-mv -f "$folder"/* "$to"
+} >"$scratch/NOTICES"
+mv -f "$scratch"/* "$to"

@@ -85,7 +85,7 @@ mounts=${mounts-}
 mkdir "$scratch/full"
 [ ! "$mounts" ] || mount -t tmpfs -o size=8k none "$scratch/full" || exit 2
 
-mapfile -t scripts < <(find samples cmd/install -name '*.sh' ! -name draw.sh ! -name script.sh)
+mapfile -t scripts < <(find samples cmd/install -name '*.sh' ! -name draw.sh ! -name script.sh ! -name scratch.sh)
 [ ${#scripts[@]} -ge 20 ] || complain "only ${#scripts[@]} scripts"
 for script in "${scripts[@]}"; do
   case $script in

@@ -16,7 +16,7 @@ complain() { echo "$*" && wrong=1; }
 first=$'\nexport LC_ALL=C\nunset CDPATH'
 for script in cmd/install/*.sh samples/*.sh samples/*/*.sh tests/run.sh tests/bench/*.sh; do
   start=$(grep -v '^#' "$script" | head -n 3)
-  [[ $start == 'set -'*"$first" || $start == *'/draw.sh"'* || $script == samples/script.sh ]] ||
+  [[ $start == 'set -'*"$first" || $start == *'/draw.sh"'* || $script == */script.sh || $script == */scratch.sh ]] ||
     complain "$script does not begin with set, LC_ALL and CDPATH"
 done
 
