@@ -74,7 +74,9 @@ constexpr std::string_view of_momenta[] = {"p_tr", "L_trH", "L_trN"};
 struct Task {
   std::vector<Computed<double (*)(const Moment&)>> row;  ///< what is appended, without --summary
   double temperature = not_given;
-  ShiftOf given{};              ///< the body and the geometry of the options
+  ShiftOf given{};              ///< the body and the geometry of the options, without the mass
+  std::vector<Body> masses;     ///< one, or one for each run
+  std::string list;             ///< the option that has one for each
   std::vector<LawOfFile> laws;  ///< with their bodies; without a law that of the options
   bool uses_law = false;        ///< instead of the column D
   bool law_of_scene = false;    ///< it uses the law because the first run has no column D
@@ -102,6 +104,15 @@ std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const
     law.law = law.law.in_wind(law.contact.body.wind);
   }
   return laws;
+}
+
+/// The mass for run i. Throws OptionError if there are fewer than runs.
+double mass_of_run(const Task& task, Reader& in, std::size_t i) {
+  const std::size_t count = task.masses.size();
+  std::size_t runs = count;
+  if (count > 1 && i >= count)
+    for (runs = i + 1; in.next_run();) ++runs;
+  return task.masses[value_of_run(task.list, count, i, runs)].m;
 }
 
 /// Checks the balance of a run.
@@ -157,6 +168,7 @@ void write_row(Output& out, const Reader& in, const Balance& balance, bool incli
 /// row of --summary is written for each run. Returns the exit status: 2 if a closure is asked for
 /// and a run has none.
 int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
+  std::size_t runs = 0;
   std::size_t beyond = 0;
   bool tests_nothing = false;
   bool without_closure = false;
@@ -168,8 +180,8 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
           "or give the runs one by one",
           run);
     const LawOfFile& law = law_of(task.laws, run);
-    const auto [body, geometry] =
-        task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
+    auto [body, geometry] = task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
+    body.m = mass_of_run(task, in, runs++);
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
     if (pipe)
       pipe->set_history("energy-ledger " + (task.uses_law ? words_of(law.law) : "D") +
@@ -202,6 +214,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
     }
     if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
   }
+  value_of_run(task.list, task.masses.size(), 0, runs);
   if (beyond > 0)
     tool.warn(fmt::format("{} shift{} beyond the radius", beyond, beyond == 1 ? " is" : "s are"));
   if (tests_nothing && (task.summary || tool.checks))
@@ -219,7 +232,8 @@ int main(int argc, char** argv) {
   LawOptions law;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   Body& body = task.given.body;
-  tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
+  tool.bodies(task.masses, task.list, {&Body::m});
+  tool.body(body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, law);
   tool.geometry(task.given.geometry);
@@ -231,6 +245,7 @@ int main(int argc, char** argv) {
             "and imbalance");
   tool.number("--check", task.tolerance, not_negative,
               "exit with 1 if |closure| or the imbalance is above this");
+  tool.accept();
   tool.scene();
   tool.input();
   tool.output();

@@ -38,7 +38,7 @@ std::map<std::string, std::optional<Route>> routes() {
 
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
   tool.bodies(bodies.all, bodies.list, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind},
-              options);
+              &options);
   add_height(tool, bodies.height);
   tool.add("--x0", "X,...",
            "x at the start of runs of speeds [m]; one, or one for each run: 0,2400 (the column x)",
@@ -210,6 +210,7 @@ int main(int argc, char** argv) {
   tool.flag("--check", tool.checks,
             "exit with 1 if the runs disagree, or the start, the residuals or another law speak "
             "against the fit");
+  tool.accept();
   tool.scene();
   tool.input();
   tool.output();

@@ -120,6 +120,12 @@ void Tool::equal_times() {
                      "make one row of the rows of one time: the first of them, or their mean");
 }
 
+void Tool::accept() {
+  add(
+      "--accept", "RUN", "let this run pass the check; may be repeated",
+      [this](const std::string& run) { accepted_.insert(run); }, Values::many);
+}
+
 void Tool::output() {
   number("--digits", out.digits,
          {"a whole number from 1 to 17", [](double x) { return whole.holds(x) && x <= 17; }},

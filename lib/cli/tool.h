@@ -133,9 +133,10 @@ class Tool {
   /// uncertainty (0.5+-0.005).
   void body(Body&, std::initializer_list<double Body::*>);
   /// The same for runs: each option has one number, or one for each run, and there are then so many
-  /// bodies, and `list` is the option that has them. The slope and the wind may be `fit`.
+  /// bodies, and `list` is the option that has them. With FitOptions the slope and the wind may be
+  /// `fit`.
   void bodies(std::vector<Body>&, std::string& list, std::initializer_list<double Body::*>,
-              FitOptions&);
+              FitOptions* = nullptr);
   void geometry(Geometry& geometry) {
     choice<Geometry>("--exact", geometry,
                      {{"false", Geometry::approximate}, {"true", Geometry::exact}},
@@ -144,6 +145,7 @@ class Tool {
   void scene();        ///< --scene, whose keys are listed in tool_options.cpp
   void input();        ///< operands, --use --run --strict
   void equal_times();  ///< --equal-times
+  void accept();       ///< --accept
   /// Whether --use says which column this quantity is.
   bool uses(const std::string& quantity) const;
   void output();  ///< --digits --plain -u
@@ -193,9 +195,10 @@ class Tool {
   void count_left_out(std::size_t count, const std::string& why);
 
   /// What speaks against the result of a run, or of all: a warning; with `checks` a line that -q
-  /// does not silence, and run() returns 1.
+  /// does not silence, and run() returns 1, unless --accept names the run.
   void object(const std::string& run, const std::string& text) {
     if (!checks) return warn(run, text);
+    if (accepted_.contains(run)) return warn(run, "accepted: " + text);
     say(run, text);
     failed_ = true;
   }
@@ -226,6 +229,7 @@ class Tool {
   bool quiet_ = false;
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
   bool failed_ = false;
+  std::set<std::string> accepted_;  // the runs of --accept
   LinesOfRuns waiting_;
   Body last_body_{not_given, not_given, not_given};  // of the options
   std::vector<std::string> doubts_;                  // about its numbers

@@ -205,14 +205,14 @@ void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
 }
 
 void Tool::bodies(std::vector<Body>& bodies, std::string& list,
-                  std::initializer_list<double Body::*> numbers, FitOptions& options) {
+                  std::initializer_list<double Body::*> numbers, FitOptions* options) {
   bodies = {{not_given, not_given, not_given}};
   for (const BodyOption& of : body_options) {
     if (std::ranges::find(numbers, of.value) == numbers.end()) continue;
     const auto fitted = std::ranges::find(scene_numbers, of.value, &SceneNumber::value);
-    const bool may_be_fitted = fitted != scene_numbers.end();
-    const auto take = [=, this, &of, &bodies, &list, &options](const std::string& text) {
-      if (may_be_fitted) options.*fitted->is_fitted = text == "fit";
+    const bool may_be_fitted = options && fitted != scene_numbers.end();
+    const auto take = [=, this, &of, &bodies, &list](const std::string& text) {
+      if (may_be_fitted) options->*fitted->is_fitted = text == "fit";
       if (may_be_fitted && text == "fit") return;
       const std::vector<Estimate> values = to_numbers(text, of.domain);
       if (bodies.size() == 1) bodies.resize(values.size(), bodies.front());

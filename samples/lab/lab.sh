@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # lab.sh [OPTION]... -K K -R R FILE|FOLDER...: finds the free rolls of all runs, the law of each run, the
-# joint law, and draws a figure. A file may hold several runs. In a folder the files .csv, .tsv and .txt
-# are read.
+# joint law, and draws a figure. A file may hold several runs. All files of a folder are read.
 #
 #   -K, -R        shape factor and radius [m], one or one for each run in order: 0.5,0.83
 #   -c x|v        fit positions (x) or velocities (v)
@@ -13,7 +12,7 @@
 #                 and the momenta of each run add up within 5 %; 1 % of good folders fail, however many
 #                 runs they have
 #   -m M          mass [kg], one or one for each run
-#   --accept RUN  do not check this run by itself; may be repeated
+#   --accept RUN  let this run pass; may be repeated
 #
 # lab.sh names a file that it cannot use, and goes on. It replaces earlier results when all new ones are
 # ready. It does not touch a folder that it did not make.
@@ -23,102 +22,70 @@ unset CDPATH
 . "$(dirname "$0")/../script.sh"
 c=x slope=0 o=results
 options '-K -R -m -c --slope --use... -o --check! --accept...' "$@"
-column=$c results=$o
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
-case $column in
-  x) route=position ;;
-  v) route=velocity ;;
-  *) wrong "-c $column: x or v" ;;
+case $c in
+  x) route=position speeds=differentiate each=${check:+--check} ;;
+  v) route=velocity speeds=smooth each='' ;;
+  *) wrong "-c $c: x or v" ;;
 esac
+[ ! -e "$o" ] || [ -e "$o/made-by-lab" ] ||
+  wrong "$o exists, and lab.sh did not make it: choose another folder with -o"
 say() { printf 'lab.sh: %s\n' "$*" >&2; }
-[ ! -e "$results" ] || [ -e "$results/made-by-lab" ] ||
-  wrong "$results exists, and lab.sh did not make it: choose another folder with -o"
 make_scratch
-
-files=()
-for operand in ${operands[@]+"${operands[@]}"}; do
-  [ -d "$operand" ] || { files+=("$operand") && continue; }
-  for file in "$operand"/*; do
-    case $file in
-      *.[cC][sS][vV] | *.[tT][sS][vV] | *.[tT][xX][tT]) files+=("$file") ;;
-      *) [ ! -f "$file" ] || say "left out, since it ends in none of .csv, .tsv, .txt: ${file##*/}" ;;
-    esac
-  done
-done
-roll() { smooth --coast -c $column ${use[@]+"${use[@]/#/--use=}"} -- "$@"; }
-used=(${files[@]+"${files[@]}"})
-if [ ${#used[@]} -gt 0 ] && roll "${used[@]}" >"$scratch/rolls" 2>"$scratch/said"; then
-  cat "$scratch/said" >&2
-else
-  used=()
-  for file in ${files[@]+"${files[@]}"}; do
-    if roll "$file" >/dev/null 2>"$scratch/said"; then used+=("$file")
-    else say "passed over: ${file##*/}: $(tail -n 1 "$scratch/said")"; fi
-  done
-  [ ${#used[@]} -gt 0 ] || wrong 'there is no run to be fitted'
-  roll "${used[@]}" >"$scratch/rolls"
-fi
-case $K,$R,$m in
-  *,*,*,*) [ ${#used[@]} = ${#files[@]} ] || wrong 'a file was passed over: which run has which K, R or m?' ;;
-esac
-
-new=$scratch/new
+new=$scratch/new table=$scratch/new/table.txt failed=''
 mkdir "$new"
+: >"$new/made-by-lab"
+
+files=() used=()
+for operand in ${operands[@]+"${operands[@]}"}; do
+  if [ -d "$operand" ]; then files+=("$operand"/*); else files+=("$operand"); fi
+done
+roll() { smooth --coast -c "$c" ${use[@]+"${use[@]/#/--use=}"} "$@"; }
+for file in ${files[@]+"${files[@]}"}; do
+  if roll -q -- "$file" >/dev/null 2>"$scratch/said"; then used+=("$file")
+  else say "passed over: ${file##*/}: $(tail -n 1 "$scratch/said")"; fi
+done
+[ ${#used[@]} -gt 0 ] || wrong 'there is no run to be fitted'
+over=$((${#files[@]} - ${#used[@]}))
+case $over,$K,$R,$m in [1-9]*,*,*,*,*) wrong 'a file was passed over: which run has which K, R or m?' ;; esac
+roll -- "${used[@]}" >"$scratch/rolls"
 named "$scratch/rolls" "${used[0]}" >"$new/rolls"
 runs=$(grep -c '^## run ' "$new/rolls")
-# What each run loses is as its mass, and how it closes is not.
-balance() {
-  if [ $column = x ]; then differentiate -q -c x -M savgol -w 21 "$1"
-  else smooth -q -c v -M savgol -w 21 "$1"; fi |
-    energy-ledger -m 1 --law "$new/table.txt" --summary --digits 6 --check 0.05 |
-    awk -F '\t' -v OFS='\t' -v list="$m" 'BEGIN { n = split(list, m, ",") }
-      /^#/ { for (i = 1; i <= NF; i++) energy[i] = $i ~ /\[J\]/ }
-      !/^#/ && NF { row++; for (i in energy) if (energy[i] && $i != "") $i *= n > 1 ? m[row] : list }
-      { print }'
-}
+
 fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" --slope "$slope" "$@"; }
+accepted=(${accept[@]+"${accept[@]/#/--accept=}"})
 if [ "$slope" = fit ]; then
   fit "$new/rolls" >"$new/slope.txt"
   slope=$(columns "$new/slope.txt" slope)
 fi
-fit --each "$new/rolls" >"$new/table.txt" || say 'some runs have no law'
-law=$new/table.txt failed=0
+fit --each $each ${accepted[@]+"${accepted[@]}"} "$new/rolls" >"$table" || {
+  [ $? = 1 ] || say 'some runs have no law'
+  [ "$(grep -vc '^#' "$table")" = "$runs" ] || wrong 'the table is not whole'
+  failed=${check:+1}
+}
+law=$table
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt
-  fitpower --digits 6 ${check:+--check} --route fits "$new/table.txt" >"$law" || { [ $? = 1 ] && failed=1; }
-  [ $failed = 0 ] || [ "$slope" != 0 ] || say 'if the runs rolled in both directions: --slope fit'
+  fitpower --digits 6 ${check:+--check} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
+  [ "$failed$slope" != 10 ] || say 'if the runs rolled in both directions: --slope fit'
 fi
 cat "$law"
 if command -v gnuplot >/dev/null; then
-  "$(dirname "$0")/../figures/fig4.sh" -c "$column" -K "$K" -R "$R" --slope "$slope" "$new/rolls" \
-    >"$scratch/fig4.svg" 2>"$scratch/said" && mv "$scratch/fig4.svg" "$new" ||
-    say "no figure: $(tail -n 1 "$scratch/said")"
+  "$(dirname "$0")/../figures/fig4.sh" -c "$c" -K "$K" -R "$R" --slope "$slope" "$new/rolls" \
+    >"$new/fig4.svg" 2>"$scratch/said" || { rm "$new/fig4.svg" && say "no figure: $(tail -n 1 "$scratch/said")"; }
 fi
-
-if [ "$check" ]; then
-  # The runs that are checked by themselves; their numbers; and what K, R and m say of them.
-  : >"$scratch/kept"
-  printf '## run %s\n' '' ${accept[@]+"${accept[@]}"} >"$scratch/accepted"
-  awk -F '\n' -v kept="$scratch/kept" 'NR == FNR { accepted[$0]; next }
-    !($1 in accepted) { print; printf "%d\n", FNR >kept }' "$scratch/accepted" RS= ORS='\n\n' "$new/rolls" >"$scratch/checked"
-  of_kept() {
-    awk -v list="$1" 'BEGIN { n = split(list, of, ","); if (n == 1) print list }
-      n > 1 { printf "%s%s", (NR > 1 ? "," : ""), of[$1] }' "$scratch/kept"
-  }
-  K=$(of_kept "$K") R=$(of_kept "$R") m=$(of_kept "$m")
-  if [ -s "$scratch/checked" ]; then
-    [ $column = v ] || fit -q --each --check "$scratch/checked" >/dev/null || failed=1
-    [ -z "$m" ] || balance "$scratch/checked" >"$new/energy.txt" || failed=1
-  fi
-  over=$((${#files[@]} - ${#used[@]}))
-  [ $failed = 1 ] || echo "passed: $runs runs$([ $over = 0 ] || echo ", files passed over: $over")" >&2
+if [ "$check" ] && [ "$m" ]; then
+  $speeds -q -c "$c" -M savgol -w 21 "$new/rolls" |
+    energy-ledger -m "$m" --law "$table" --summary --digits 6 --check 0.05 ${accepted[@]+"${accepted[@]}"} \
+      >"$new/energy.txt" || { [ $? = 1 ] || rm "$new/energy.txt"; failed=1; }
 fi
+[ -z "$check" ] || [ "$failed" ] ||
+  echo "passed: $runs runs$([ $over = 0 ] || echo ", files passed over: $over")" >&2
 
 replace=1
-mkdir -p "$results"
-: >"$new/made-by-lab"
-place "$results" "$new"/*
+mkdir -p "$o"
+place "$o" "$new"/*
 for name in slope.txt joint.txt energy.txt fig4.svg; do
-  [ -e "$new/$name" ] || rm -f "$results/$name"
+  [ -e "$new/$name" ] || rm -f "$o/$name"
 done
-exit $failed
+exit "${failed:-0}"
