@@ -16,6 +16,7 @@ options '-f -t -n' "$@"
 from=$f to=$t N=$n
 set -- ${operands[@]+"${operands[@]}"}
 [ $# -le 1 ] || wrong "one file, not $#"
+[ "${1--}" = - ] || [ -r "$1" ] || wrong "$1 cannot be read"
 is_count "$N" && [ "$N" -ge 2 ] || wrong "-n $N: a whole number, 2 or more"
 for limit in "$from" "$to"; do
   [ -z "$limit" ] || is_number "$limit" || wrong "$limit is not a number"

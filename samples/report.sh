@@ -9,6 +9,7 @@ export LC_ALL=C
 unset CDPATH
 . "$(dirname "$0")/script.sh"
 [ $# -gt 0 ] && [ $# -le 2 ] || wrong 'say the folder of the figures, and that of work-precision if it was run'
+for folder; do [ -d "$folder" ] || wrong "$folder is no folder"; done
 figures=$(cd "$1" && pwd)
 measured=''
 [ $# -lt 2 ] || measured=$(cd "$2" && pwd)

@@ -126,5 +126,9 @@ for options in '-n abc' '-n 1' '-f x' '-t 1,5'; do
   attempt "law.sh $options" samples/law.sh $options thesis.tex
   grep -q '^law.sh: ' "$scratch/out" || complain "law.sh $options: $(cat "$scratch/out")"
 done
+for script in law.sh report.sh table1.sh; do
+  attempt "$script of a file that is not there" samples/$script nothing
+  [ $status != 0 ] && grep -q "^$script: nothing " "$scratch/out" || complain "$script nothing: $(cat "$scratch/out")"
+done
 unharmed "$tree" law.sh
 exit $wrong
