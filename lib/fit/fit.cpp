@@ -12,6 +12,7 @@
 #include "fit/refits.h"
 #include "fit/fitted.h"
 #include "fit/routes.h"
+#include "statistics/residuals.h"
 
 namespace rolling {
 
@@ -167,6 +168,17 @@ void require_roll(const Fitted& found) {
   }
 }
 
+/// How far v0 [m/s] of the first run may be off if a filter correlates the noise of the speeds, as
+/// y_i = AR y_(i-1) + (1 - AR) v_i, which delays them by AR/(1 - AR) rows. A mean of so many rows
+/// delays them by half of that, or not at all.
+double error_of_delay(const Fitted& found) {
+  const double AR = autoregression(found.minimum.f, found.minimum.theta.size(), found.model.rows());
+  const std::vector<double>& t = found.model.runs().front().t;
+  const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  const double delay = std::max(AR, 0.0) / (1 - AR) * step;
+  return std::abs(delay * found.model.roll(found.minimum.theta, 0).at(0).a);
+}
+
 FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOptions& options) {
   Fitted found = fit_route(route, runs, options);
   Matrix Q = orthonormal(found.system(), found.minimum);
@@ -175,6 +187,8 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   if (!options.robust) off = off_readings(found, false);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
+  if (route == Route::velocity && noise.kind == Errors::autocorrelation && !found.noise->known())
+    found.error_of_clock = error_of_delay(found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const auto freedom = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());
   const double rms = found.degrees_left() == 0 ? NAN : std::sqrt(sum_of_squares(found) / freedom);

@@ -170,15 +170,19 @@ double bartlett(std::span<const double> X, std::span<const double> Y, std::size_
 
 }  // namespace
 
+double autoregression(std::span<const double> residuals, std::size_t fitted,
+                      std::span<const std::size_t> runs) {
+  const double n = static_cast<double>(residuals.size());
+  const double p = static_cast<double>(fitted);
+  const double of_noise =
+      (n * correlation_of_neighbours(residuals, runs) + p) / std::max(n - p - 2, 1.0);
+  return std::clamp(of_noise, -0.97, 0.97);
+}
+
 std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
                                std::span<const std::size_t> runs) {
   const double n = static_cast<double>(residuals.size());
-  const double fitted = static_cast<double>(p);
-  // A fit of p smooth terms lowers the lag-1 correlation of its residuals by (p (1 + AR) + 2 AR)/n
-  // (Kendall 1954, Biometrika 41, 403, for p = 1).
-  const double AR = std::clamp(
-      (n * correlation_of_neighbours(residuals, runs) + fitted) / std::max(n - fitted - 2, 1.0),
-      -0.97, 0.97);
+  const double AR = autoregression(residuals, p, runs);
   for (std::vector<double>& column : scores) prewhiten(column, runs, AR);
   prewhiten(residuals, runs, AR);
   const double rho = correlation_of_neighbours(residuals, runs);

@@ -43,13 +43,18 @@ double breusch_pagan(std::span<const double> residuals, std::span<const std::siz
 double lagged(std::span<const double> residuals, std::span<const std::size_t> runs,
               std::size_t lag);
 
+/// AR of the noise e_i = AR e_(i-1) + white noise behind the residuals of a fit of p smooth terms,
+/// which lowers their correlation with their neighbours by (p (1 + AR) + 2 AR)/n (Kendall 1954,
+/// Biometrika 41, 403, for p = 1). At most 0.97.
+double autoregression(std::span<const double> residuals, std::size_t p,
+                      std::span<const std::size_t> runs);
+
 /// The meat of the sandwich, the sum of w(|i-j|) u_i u_j^T over each run, row by row, run by run.
 /// The rows of `scores` are the u_i; p is the number of degrees of freedom that the fit and the
 /// filters have taken from the noise. The weights w are Bartlett's
 /// (Newey and West 1987, Econometrica 55, 703) with the bandwidth of Andrews' AR(1) rule (1991,
 /// Econometrica 59, 817), after prewhitening by the AR(1) of the residuals (Andrews and Monahan
-/// 1992, Econometrica 60, 953). The AR(1) coefficient is corrected for the bias of the fit. Short
-/// rows need both, prewhitening and correction.
+/// 1992, Econometrica 60, 953). Short rows need prewhitening.
 std::vector<double> newey_west(Matrix scores, std::size_t p, std::vector<double> residuals,
                                std::span<const std::size_t> runs);
 
