@@ -243,8 +243,8 @@ int main(int argc, char** argv) {
   tool.flag("--summary", task.summary,
             "print one row for each run: energy at the start and end, energy dissipated, closure "
             "and imbalance");
-  tool.number("--check", task.tolerance, not_negative,
-              "exit with 1 if |closure| or the imbalance is above this");
+  tool.number("--check", task.tolerance, {"from 0 to 1", [](double x) { return x >= 0 && x <= 1; }},
+              "exit with 1 if |closure| or the imbalance is above this share (5 % is 0.05)");
   tool.accept();
   tool.scene();
   tool.input();
@@ -283,6 +283,8 @@ int main(int argc, char** argv) {
     if (!task.uses_law) {
       tool.refuse({"wind"}, "goes with a law");
       tool.need({"radius", "shape-factor"});
+      if (!in.find("D"))
+        fail("neither a law (--law, or -a and -b) nor a column D (--use D=COLUMN)");
       task.laws = {{.contact = task.given}};
     }
     task.t = in.need("t");

@@ -118,6 +118,7 @@ void add_options(Tool& tool, SelectionOptions& select) {
 void refuse_pairs(const Tool& tool, const SelectionOptions& select, const SignalOptions& options) {
   if (options.width.seconds > 0) tool.refuse({"width"}, "does not go with --seconds: give one");
   if (!options.method->has_order) tool.refuse({"order"}, "goes with --method savgol");
+  if (select.from > select.to) tool.refuse({"from"}, "is after --to: no row is between them");
   if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
 }
 

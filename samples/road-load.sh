@@ -34,10 +34,18 @@ options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column...
 out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
 TM=$test_mass measured=$anemometer svg=$o road=(${height:+--height "$height"} ${x0:+--x0 "$x0"})
 [ ${#out[@]} -gt 0 ] || wrong 'there is no run'
-[ "$m" ] && [ "$rotating" ] || wrong 'say the masses: -m 1500 --rotating 60'
+[ "$m" ] && [ "$rotating" ] || wrong 'say the masses in kg: -m 1500 --rotating 60, or --rotating 0'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
   [ -z "$number" ] || is_number "$number" || wrong "$number is not a number"
 done
+# within NAME VALUE LEAST MOST: they show another unit.
+within() {
+  [ -z "$2" ] || awk "BEGIN { exit !($2 >= $3 && $2 <= $4) }" || wrong "$1 $2: from $3 to $4"
+}
+within '-m (kg)' "$m" 5 1e7
+within '--rotating (kg)' "$rotating" 0 "$m"
+within '-T (degrees Celsius)' "$T" -60 60
+within '-p (kPa)' "$p" 30 110
 case $standard in
   gtr15) pressure=100 ;;
   cfr) pressure=98.21 ;;

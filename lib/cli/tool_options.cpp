@@ -35,14 +35,14 @@ struct BodyOption {
 static constexpr BodyOption body_options[] = {
     {"-m,--mass", &Body::m, nullptr, positive, "mass m [kg]", 0, INFINITY, ""},
     {"-R,--radius", &Body::R, &Body::sigma_R, positive, "radius R [m]", 0, 1,
-     "R = {} m: if that is millimetres, write {}; of centimetres, ten times that", 1e-3},
+     "R = {} m: write {:.6g} if that is millimetres, {:.6g} if centimetres", 1e-3},
     {"-K,--shape-factor", &Body::K, &Body::sigma_K, not_negative, "shape factor K of J = K m R^2",
      0, 1, "K = {}: a cart has about 0, a ball 0.4, a solid cylinder 0.5, a tube 1"},
-    {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)", 0.1, 100,
-     "g = {} m/s^2: if that is cm/s^2, write {}", 1e-2},
+    {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)", 1, 30,
+     "g = {} m/s^2: on the earth it is 9.81 m/s^2, on the moon 1.62 m/s^2"},
     {"--slope", &Body::slope, &Body::sigma_slope, any_number,
-     "rise of the mat in metres per metre of growing x (0)", -1, 1,
-     "slope = {}: if that is per cent, write {}", 1e-2},
+     "rise of the mat in metres per metre of growing x (0)", -0.8, 0.8,
+     "slope = {}: if that is per cent, write {:.6g}", 1e-2},
     {"--wind", &Body::wind, nullptr, any_number,
      "speed of the air towards falling x [m/s] (0): d2 v^2 becomes d2 (v + W)|v + W|", -30, 30,
      "wind = {} m/s: if that is km/h, write {:.3g}", 1 / 3.6}};
@@ -129,7 +129,8 @@ std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) 
 double to_number(const std::string& text, const Domain& domain, double* sigma) {
   Estimate read;
   if (!(sigma ? parse_estimate(text, read) : parse_number(text, read.value)))
-    fail("'{}' is not a number (decimal point, no unit)", shown(text));
+    fail("'{}' is not a number ({})", shown(text),
+         text.find('%') < text.size() ? "5 % is 0.05" : "decimal point, no unit");
   if (!domain.holds(read.value)) fail("'{}' must be {}", shown(text), domain.text);
   if (sigma) *sigma = read.sigma;
   return read.value;
@@ -190,7 +191,8 @@ void Tool::set(Body& body, const BodyOption& of, const Estimate& x) {
   if (of.sigma) body.*of.sigma = x.sigma;
   last_body_.*of.value = x.value;
   if (!(x.value >= of.least && x.value <= of.most))
-    doubts_.push_back(fmt::format(fmt::runtime(of.doubt), x.value, x.value * of.unit));
+    doubts_.push_back(
+        fmt::format(fmt::runtime(of.doubt), x.value, x.value * of.unit, x.value * 10 * of.unit));
 }
 
 void Tool::body(Body& body, std::initializer_list<double Body::*> numbers) {
@@ -256,7 +258,11 @@ std::string Tool::parse(int argc, const char* const* argv) {
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   for (std::string& argument : arguments)
     if (argument.starts_with('[')) argument.insert(argument.begin(), one_word);
-  std::ranges::reverse(arguments);  // as CLI11 wants them
+  for (const std::string& argument : arguments)
+    if (argument.starts_with('-') && argument.size() > 2 &&
+        app_->get_option_no_throw("-" + argument))
+      fail("{}: write -{}", argument, argument);  // -coast would be -c oast
+  std::ranges::reverse(arguments);                // as CLI11 wants them
   try {
     app_->parse(std::move(arguments));
     return {};

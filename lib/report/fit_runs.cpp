@@ -283,7 +283,7 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   const JointLaw joint = joint_law(rows.laws, common);
   write_table(tool.out, line_of_fit("fits", {}, of_runs), {row_of(joint, rows.laws.size())});
   const std::string found = disagreement(joint.agreement, rows.runs, tool.checks);
-  if (!found.empty()) tool.object("", found);
+  if (!found.empty()) tool.object("", found, rows.runs[joint.agreement.run].name);
 }
 
 }  // namespace rolling

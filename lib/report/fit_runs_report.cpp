@@ -94,7 +94,9 @@ class Remarks {
     comes_back();
     if (r_.agreement) {
       const std::string found = disagreement(*r_.agreement, fit_.runs, tool_.checks);
-      if (!found.empty()) object("", found + ways_to_agree());
+      spoilt_ |= !found.empty();
+      if (!found.empty())
+        tool_.object("", found + ways_to_agree(), fit_.runs[r_.agreement->run].name);
     }
     if (noisy_) causes();
     const LawForm& law = r_.law.form();

@@ -162,7 +162,7 @@ inline void Reader::check_time(const NeededColumns::Needed& needed, double t) {
     refuse(needed,
            fmt::format("does not come after {}{}; {}", last_time_,
                        needed.to_si.changes() || by_clock ? " s" : "",
-                       t < last_time_ ? "put a blank line before another run"
+                       t < last_time_ ? "put a blank line before another run, or say --use t=COLUMN"
                                       : "smooth --equal-times mean (or first) makes one row of "
                                         "rows of one time"));
   note_jump(needed, t);
@@ -178,7 +178,8 @@ inline void Reader::note_jump(const NeededColumns::Needed& needed, double t) {
   const double jump = step - last_step_;  // 59 s is followed by 100, and 5959 by 10000
   const bool of_minute = std::abs(jump - 40) < last_step_ / 2;
   const bool of_hour = std::abs(jump - 4040) < last_step_ / 2;
-  const bool may_be_digits = !reads_clock_ && !needed.to_si.changes() && jump_.empty();
+  const bool may_be_digits =
+      !reads_clock_ && !needed.to_si.changes() && jump_.empty() && last_step_ < 10;
   if ((of_minute || of_hour) && may_be_digits &&
       std::abs(std::fmod(last_time_ + last_step_, 100) - 60) < 1.5 * last_step_)
     jump_ = fmt::format(

@@ -24,7 +24,7 @@ c=x slope=0 o=results
 options '-K -R -m -c --slope --use... -o --check! --accept...' "$@"
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 case $c in
-  x) route=position speeds=differentiate each=${check:+--check} ;;
+  x) route=position speeds=differentiate each=${check:+-q --check} ;;
   v) route=velocity speeds=smooth each='' ;;
   *) wrong "-c $c: x or v" ;;
 esac
@@ -37,6 +37,7 @@ mkdir "$new"
 : >"$new/made-by-lab"
 
 files=() used=()
+shopt -s nullglob
 for operand in ${operands[@]+"${operands[@]}"}; do
   if [ -d "$operand" ]; then files+=("$operand"/*); else files+=("$operand"); fi
 done
@@ -59,14 +60,15 @@ if [ "$slope" = fit ]; then
   slope=$(columns "$new/slope.txt" slope)
 fi
 fit --each $each ${accepted[@]+"${accepted[@]}"} "$new/rolls" >"$table" || {
-  [ $? = 1 ] || say 'some runs have no law'
-  [ "$(grep -vc '^#' "$table")" = "$runs" ] || wrong 'the table is not whole'
+  status=$?
+  [ "$(grep -vc '^#' "$table")" = "$runs" ] || exit $status
+  [ $status = 1 ] || say 'some runs have no law'
   failed=${check:+1}
 }
 law=$table
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt
-  fitpower --digits 6 ${check:+--check} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
+  fitpower --digits 6 ${check:+--check} ${accepted[@]+"${accepted[@]}"} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
   [ "$failed$slope" != 10 ] || say 'if the runs rolled in both directions: --slope fit'
 fi
 cat "$law"

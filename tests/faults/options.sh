@@ -91,7 +91,7 @@ smooth --use v=t @|cannot serve as both
 smooth --use v=D --use v=a @|comes after another for v
 smooth --use v= @|is not NAME=COLUMN
 smooth --use =v @|is not NAME=COLUMN
-smooth --from 5 --to 1 @|no rows
+smooth --from 5 --to 1 @|is after --to
 smooth --run 0 @|there is no run 0 (runs: 1)
 smooth --run 1.5 @|there is no run 1.5 (runs: 1)
 smooth --run 2 @|there is no run 2
@@ -149,7 +149,7 @@ simulate -K 0.5 -R 0.04 -a 1e-3 -b 0.2 --v0 1 @|
 energy-ledger -m 0 -K 0.5 -R 0.04 @|'0' must be greater than 0
 energy-ledger -m -1 -K 0.5 -R 0.04 @|'-1' must be greater than 0
 energy-ledger -q -m 1e308 -K 1e308 -R 0.04 @|not a finite number
-energy-ledger -m 1 -K 0.5 -R 0.04 --check -1 @|'-1' must be 0 or more
+energy-ledger -m 1 -K 0.5 -R 0.04 --check -1 @|'-1' must be from 0 to 1
 energy-ledger -m 1 -K 0.5 -R 0.04 -a 1e-3 @|neither given nor in a scene: --exponent
 smooth /nowhere|/nowhere: No such file or directory
 smooth .|.: Is a directory

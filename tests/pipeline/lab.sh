@@ -127,6 +127,20 @@ for i in 1 2 3 4; do awk -F, -v OFS=, 'NR == 1 { print "Zeitpunkt", "Ort"; next 
 lab $bodies --slope 0.001 --use 't=1[ms]' --use x=Ort named/?.csv || complain "use of two: $(cat said)"
 law | cmp - of-files || complain "use of two: $(cat said)"
 
+# A run that is known to be off may be accepted.
+mkdir off
+for seed in 101 102 103 104; do cp runs/$seed.csv off; done
+simulate --scene ../CR.toml -a 2e-3 --sensor pasco --seed 105 >off/105.csv
+lab --check $of_body off && complain 'check: a run that is off'
+lab --check $of_body --accept 105.csv off || complain "--accept of a run that is off: $(cat said)"
+grep -q 'accepted: the runs disagree .*: run 105.csv stands out' said || complain "accepted: $(cat said)"
+lab --check $of_body --accept 104.csv off && complain 'check: another run is accepted'
+# A folder without a file, and too many K.
+mkdir empty
+lab -K 0.5 -R 0.04 empty && complain 'lab.sh took an empty folder'
+[ "$(cat said)" = 'lab.sh: there is no run to be fitted' ] || complain "an empty folder: $(cat said)"
+lab -K 0.5,0.83 -R 0.04 off && complain 'two K of five runs'
+[ "$(tail -n 1 said | cut -c 1-52)" = 'fitpower: --shape-factor gives 2 values for 5 runs: ' ] || complain "two K: $(cat said)"
 # Speeds instead of positions; two mats have no one law.
 mkdir speeds
 for run in CF CR; do cut -d, -f1,3 ../$run.csv >speeds/$run.csv; done

@@ -77,10 +77,27 @@ awk -F '\t' '
   $1 == "f0" && (far(150) || $3 > 3) || $1 == "wind" && far(3)' table | grep . && wrong=1
 [ "$(grep -c '^f[02]\|^wind' table)" = 3 ] || complain "not all of them: $(cat table)"
 
-for words in '' 'out1' '-m 1 out1' '-m 1 --rotating x out1' '-m 1 --rotating 1 --standard sae out1' '-m 1 --rotating 1 nowhere'; do
+for words in '' 'out1' '-m 1512 out1' '-m 1512 --rotating x out1' '-m 1512 --rotating 1 --standard sae out1' '-m 1512 --rotating 1 nowhere'; do
   # shellcheck disable=SC2086
   load $words >table && complain "accepted: $words"
   [ ! -s table ] && [ -s said ] || complain "$words: $(cat table said)"
+done
+# Numbers in other units: tonnes, a mass above that of the car, kelvin, pascal, hectopascal; and the limits.
+while read -r refused option limits; do
+  # shellcheck disable=SC2086
+  load -m 1512 --rotating 60 out1 ${refused/=/ } 2>&1
+  grep -q "^road-load.sh: $option [(].* ${refused#*=}: from $limits" said || complain "$refused: $(cat said)"
+done <<'END' >/dev/null
+-m=1.5 -m 5 to 1e7
+--rotating=1513 --rotating 0 to 1512
+-T=293 -T -60 to 60
+-T=-61 -T -60 to 60
+-p=101325 -p 30 to 110
+-p=29 -p 30 to 110
+END
+for words in '-T 60 -p 110' '-T -60 -p 30'; do
+  # shellcheck disable=SC2086
+  load -m 1512 --rotating 0 out1 $words >/dev/null || complain "$words: $(cat said)"
 done
 if command -v gnuplot >/dev/null; then
   load --no-f1 -m 1512 --rotating 60.48 -o force.svg out1 --back back1 >/dev/null || complain "$(cat said)"
