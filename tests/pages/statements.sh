@@ -131,7 +131,7 @@ fitpower -q --law d0+d2*v^2 -K 0.04 -R 1 --slope fit "$scratch/way0.001" "$scrat
 
 # fitpower(1): coverage of noise alone, as the table says that `make coverage` writes: of the rows in
 # which few runs are told, loglog aside.
-says man/fitpower.1 'nominal 95 % intervals have a coverage probability of 0.92 to 0.97, or a warning'
+says man/fitpower.1 '0.92 to 0.97 of the nominal 95 % intervals hold the truth, or there is a warning'
 awk '/^(position|velocity|shift),/ && NF > 6 { told = $NF > $(NF - 1) ? $NF : $(NF - 1)
     if (told >= 0.2) next
     for (i = NF - 5; i <= NF - 2; i++) { n++; if ($i < 0.915 || $i > 0.975) { print; bad = 1 } } }
