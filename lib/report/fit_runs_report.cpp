@@ -124,8 +124,9 @@ class Remarks {
     if (!options_.fit_slope) ways += "; if they rolled in both directions, --slope fit";
     const double K = fit_.runs.front().body.K;
     const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
-    return ways + (std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
-                                                           : "; if bodies differ, a K for each");
+    ways += std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
+                                                    : "; if bodies differ, a K for each";
+    return ways + "; for a law of each run, --each";
   }
 
   /// What spoils the fit.
