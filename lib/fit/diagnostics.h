@@ -3,12 +3,18 @@
 // turn; single readings far off the motion.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "fit/fitted.h"
 #include "fit/result.h"
 
 namespace rolling {
+
+/// The way and the speed of the fitted roll at the times of a run.
+using Path = std::vector<std::array<double, 2>>;
+Path path_of(const Fitted&, std::size_t run);
 
 /// The eccentricity from the periodogram of Lomb (1976, Astrophys. Space Sci. 39, 447) and Scargle
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
@@ -21,6 +27,17 @@ namespace rolling {
 /// correction), or if the period 0.7 or 1.4 times as long has as small a p: the residuals then have
 /// another cause. A run of less than one turn, or with less than two rows in a turn, is not tested.
 std::optional<Eccentricity> eccentricity_of(const Fitted&, const Matrix& Q);
+
+/// The largest jump of the clock of a run that is fitted by itself, as where a camera has lost
+/// frames: behind it the positions are those of a later time, and the residuals have the form of
+/// the speed. The test is by F, after Bonferroni's correction for the rows; jumps are taken out one
+/// after another, up to five. The result is empty unless the clock jumps by half a step or more and
+/// white noise is left. Q: see eccentricity_of(). For positions without known filters.
+std::optional<ClockJump> jump_of_clock(const Fitted&, const Matrix& Q);
+
+/// The standard deviation of the times [s] if their noise, which is one of positions as large as
+/// the speed, makes the noise of the residuals uneven, and no other noise is left uneven; else 0.
+double noise_of_clock(const Fitted&);
 
 /// The probability that white noise turns back as few of the steps from reading to reading, against
 /// the motion of the fitted roll, as these readings do. A median of readings turns back hardly any,

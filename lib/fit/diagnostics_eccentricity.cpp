@@ -18,20 +18,6 @@
 namespace rolling {
 namespace {
 
-/// The way and the speed of a roll at the times of a run.
-using Path = std::vector<std::array<double, 2>>;
-
-Path path_of(const ObservedRun& run, Roll roll) {
-  const double last = run.t.back();
-  ChebyshevPanels at(run.t, {roll.stop_until(last), roll.radius_time(last)}, [&](double t) {
-    const Roll::Point p = roll.at(t);
-    return std::array{p.x, p.v};
-  });
-  Path path;
-  for (const double t : run.t) path.push_back(at(t));
-  return path;
-}
-
 /// True if a run of so many residuals shows a turn: its roll has one, and two rows in each.
 bool shows_a_turn(const ObservedRun& run, const Path& path, std::size_t n) {
   const double turn = 2 * std::numbers::pi * run.body.R;
@@ -107,6 +93,19 @@ std::vector<double> cut_off(std::span<const double> f) {
 
 }  // namespace
 
+Path path_of(const Fitted& fit, std::size_t r) {
+  const ObservedRun& run = fit.model.runs()[r];
+  Roll roll = fit.model.roll(fit.minimum.theta, r);
+  const double last = run.t.back();
+  ChebyshevPanels at(run.t, {roll.stop_until(last), roll.radius_time(last)}, [&](double t) {
+    const Roll::Point p = roll.at(t);
+    return std::array{p.x, p.v};
+  });
+  Path path;
+  for (const double t : run.t) path.push_back(at(t));
+  return path;
+}
+
 std::optional<Eccentricity> eccentricity_of(const Fitted& fit, const Matrix& Q) {
   if (!fit.is_roll() || fit.minimum.f.size() < fit.minimum.theta.size() + 10) return {};
   std::optional<Eccentricity> found;
@@ -118,7 +117,7 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit, const Matrix& Q) 
     const double freedom = static_cast<double>(rows[r]) - static_cast<double>(Q.size());
     if (!(freedom > 2 && dot(f, f) > 0)) continue;
     const ObservedRun& run = fit.model.runs()[r];
-    const Path path = path_of(run, fit.model.roll(fit.minimum.theta, r));
+    const Path path = path_of(fit, r);
     if (!shows_a_turn(run, path, f.size())) continue;
     const auto signal = [&](double stretch) {
       return amplitude(fit, r, path, stretch * run.body.R, freedom, f, Q_of[r]);

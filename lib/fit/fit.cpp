@@ -183,6 +183,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   Fitted found = fit_route(route, runs, options);
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
+  const auto clock_jump = jump_of_clock(found, Q);
   OffReadings off{};  // a robust fit lets them count little
   if (!options.robust) off = off_readings(found, false);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
@@ -215,6 +216,8 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   result.agreement = agreement;
   result.eccentricity = eccentricity;
   result.off = off;
+  result.clock_jump = clock_jump;
+  if (noise.kind == Errors::uneven) result.clock_noise = noise_of_clock(found);
   result.not_visited = std::move(not_visited);
   if (!options.robust) result.reversals = few_reversals(found);
   return result;

@@ -42,6 +42,13 @@ struct OffReadings {
   double distance = 0;  ///< of that reading, in standard deviations of the others
 };
 
+/// A place where the clock of a run jumps, see jump_of_clock().
+struct ClockJump {
+  double time;  ///< of the first row behind it [s]
+  double by;    ///< what the times lack from there on [s]
+  double p;     ///< the probability that noise alone seems to jump so
+};
+
 /// The contribution of one source of error to the standard errors, which are the root sums of
 /// squares of the contributions. That of an input quantity is the change of the result when the
 /// quantity changes by one standard uncertainty.
@@ -92,6 +99,8 @@ struct FitResult {
   std::optional<Eccentricity> eccentricity = {};  ///< of the run with the signal of the smallest p
   std::optional<Agreement> agreement = {};        ///< for two or more runs
   OffReadings off = {};                           ///< of the run with the reading furthest off
+  std::optional<ClockJump> clock_jump = {};       ///< the largest, of a run by itself
+  double clock_noise = 0;                         ///< see noise_of_clock()
   std::vector<ErrorShare> shares = {};            ///< the noise first
   std::vector<Interval> not_visited = {};         ///< in place of 1.96 standard errors
 };

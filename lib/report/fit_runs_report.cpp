@@ -185,6 +185,12 @@ class Remarks {
                  "column with --robust",
                  r_.off.time, r_.off.distance,
                  r_.off.count > 1 ? fmt::format(", and {} more are off", r_.off.count - 1) : ""));
+    if (const auto& jump = r_.clock_jump)
+      object(run_, fmt::format(
+                       "from t = {:.12g} s on the times are {:.2g} s too {} ({}), as if frames or "
+                       "readings were {}: fit the rows before or after that",
+                       jump->time, std::abs(jump->by), jump->by > 0 ? "small" : "large",
+                       p_of(jump->p), jump->by > 0 ? "lost" : "there twice"));
     if (r_.b + levels::below_least_b * r_.sigma_b < levels::least_b)
       object(run_,
              fmt::format("b is {:.3g} +- {:.2g}: no mat does this, but a hand, a wall, an incline "
@@ -247,15 +253,19 @@ class Remarks {
               p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
               std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
     if (noise_is_correlated(r_) && !tool_.checks) tell_not_white();
-    else if (r_.reversals <= levels::few_reversals)
+    else if (r_.reversals <= levels::few_reversals && r_.errors != Errors::uneven)
       tool_.warn(run_,
                  "the readings look like medians or means of others: too few turn back against the "
                  "motion; their noise is correlated, and sigma_a and sigma_b may be too small; fit "
                  "what the sensor read");
     if (r_.errors == Errors::uneven)
       tool_.warn(run_,
-                 "the size of the noise changes along the run; sigma_a and sigma_b allow for it: "
-                 "look at the residuals");
+                 r_.clock_noise > 0
+                     ? fmt::format("the noise grows with the speed, as by times that are off by "
+                                   "{:.2g} s; sigma_a and sigma_b allow for it",
+                                   r_.clock_noise)
+                     : "the size of the noise changes along the run; sigma_a and sigma_b allow for "
+                       "it: look at the residuals");
   }
 
   /// The name of a coefficient or, behind them, of a number of the scene.
@@ -302,7 +312,7 @@ class Remarks {
              fmt::format("the first {} rows follow another motion ({}), as if a hand were still "
                          "on: cut off {:.2g} s",
                          beginning->rows, p_of(beginning->p), beginning->time));
-    if (r_.whiteness <= levels::not_white / fits_) tell_not_white();
+    if (r_.whiteness <= levels::not_white / fits_ && !r_.clock_jump) tell_not_white();
   }
 
   Tool& tool_;

@@ -23,6 +23,8 @@ inline constexpr double runs_disagree = 0.01;
 inline constexpr double run_off = 0.01;
 /// The beginning is disturbed, after Bonferroni's correction: 0.1 %. The others must be white.
 inline constexpr double beginning = 0.001, beginning_white = 0.009;
+/// The clock of a run jumps, after Bonferroni's correction: 0.1 %.
+inline constexpr double clock_jump = 0.001;
 /// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.
 inline constexpr double one_turn = 0.01;
 /// In the search for one turn, a residual of more standard deviations than this counts as one of
