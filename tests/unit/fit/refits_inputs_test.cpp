@@ -138,7 +138,7 @@ TEST_CASE("input quantities: what is held fixed has no error from them", "[fit]"
 TEST_CASE("input quantities: errors and correlation of Monte Carlo draws", "[fit][many]") {
   const unsigned draws = of_many(2000);
   const double off = 2.7 / std::sqrt(draws);
-  const auto all = studies::input_quantities(draws, 8);
+  const auto all = studies::input_quantities(static_cast<int>(draws), 8);
   CAPTURE(all.stated_a, all.a.sd(), all.stated_b, all.b.sd(), all.stated_v0, all.v0.sd(),
           all.stated_corr, all.corr);
   CHECK(std::abs(all.stated_a / all.a.sd() - 1) < off);

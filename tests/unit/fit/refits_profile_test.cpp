@@ -83,7 +83,7 @@ TEST_CASE("visited intervals: of a curved valley the profile's are told, and hol
   CHECK(w.told >= 3 * runs / 4);
   CHECK(w.held >= most);
   const Scene both{"d0 + a v^b", 5, {8e-4, 7e-4, 1.5}, ball, 1.8, 5, 1. / 30, 3e-4};
-  for (const std::size_t j : {0, 1}) {
+  for (const std::size_t j : {0u, 1u}) {
     const Count found = count(both, j, runs);
     CHECK(found.told >= 19 * runs / 20);
     CHECK(found.held >= most);

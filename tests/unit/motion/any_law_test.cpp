@@ -66,7 +66,7 @@ TEST_CASE("Roll: derivatives are limits of differences for every law", "[law]") 
 // Also where the air comes to rest beside the body, and where a head wind blows it back.
 TEST_CASE("Roll: the derivatives in a wind are limits of differences", "[law]") {
   constexpr double h = 1e-5;
-  for (const std::size_t law : {3, 4})
+  for (const std::size_t law : {3u, 4u})
     for (const double wind : {0.0, 0.4, -0.5, 1.5})
       for (const double slope : {0.0, 0.02})
         for (const double t : {0.3, 1.3, 4.0}) {

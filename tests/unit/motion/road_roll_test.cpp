@@ -134,7 +134,7 @@ TEST_CASE("road: a straight road is a slope", "[road]") {
         CHECK(p.a == Approx(q.a).epsilon(1e-9));
         CHECK(p.x_v0 == Approx(q.x_v0).epsilon(1e-8));
         CHECK(p.v_v0 == Approx(q.v_v0).epsilon(1e-8));
-        for (const std::size_t j : {0, 1}) {
+        for (const std::size_t j : {0u, 1u}) {
           CHECK(p.x_c[j] == Approx(q.x_c[j]).epsilon(1e-7).margin(1e-8));
           CHECK(p.v_c[j] == Approx(q.v_c[j]).epsilon(1e-7).margin(1e-8));
         }
