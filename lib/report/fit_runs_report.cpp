@@ -143,9 +143,10 @@ class Remarks {
       const bool beyond = D > R;
       if (!beyond && std::abs(D) >= levels::least_D_over_R * R) continue;
       const std::string text = fmt::format(
-          "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of a column "
-          "is probably wrong",
-          D, v0, beyond ? "beyond" : "less than a ten-thousandth of", R);
+          "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of t or {} "
+          "is probably wrong, which --use says: 't=1[ms]'",
+          D, v0, beyond ? "beyond" : "less than a ten-thousandth of", R,
+          rolling::name_of(fitted_column(fit_.route)));
       if (beyond) object(fit_.runs[i].name, text);
       else tool_.warn(fit_.runs[i].name, text);
       break;
