@@ -167,7 +167,8 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
 TEST_CASE("agreement: of 1000 pairs of rolls under one law 1 % are said to disagree",
           "[fit][many]") {
   const unsigned pairs = of_many(1000);
-  const unsigned alarms = static_cast<unsigned>(studies::disagreements(rubber, 2, 0, pairs, 31));
+  const unsigned alarms =
+      static_cast<unsigned>(studies::disagreements(rubber, 2, 0, static_cast<int>(pairs), 31));
   CHECK(alarms <= at_most(pairs, 0.01));
   CHECK(alarms >= at_least(pairs, 0.01));
 }
