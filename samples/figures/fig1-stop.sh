@@ -28,7 +28,7 @@ cp law memory  # for gnuplot, which looks for it where it is not drawn, too
 rest=$(columns moving t x | awk -v end="$end" '$1 > end - 1 { sum += $2; n++ } END { print sum / n }'
   tail -n 1 law | cut -f 2
   tail -n 1 memory | cut -f 2)
-{ printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g; s/, goes/,@goes/; s/; as/;@as/' | tr @ '\n' >note
+{ printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g; s/, goes/,@goes/; s/; as/;@as/; s/: of/:@of/' | tr @ '\n' >note
 title='Fig. 1, the stop: velocity and position near the stop, with the roll backwards'
 draw 520 740 "remembers = ${#memory}; of_memory = '$of_memory'; stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
 set multiplot layout 2,1 margins 0.15,0.98,0.16,0.98 spacing 0.1

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Draws Fig. 1, v(t): the differences of the positions, and of the free roll the differences smoothed
-# over a window and the trajectory that fits the positions.
+# over a window and the trajectory that fits the positions. A roll towards falling x is drawn with v
+# positive.
 #
 #   fig1.sh [OPTION]... [FILE]... >fig1.svg      the four experiments, or your own runs
 #
@@ -12,13 +13,15 @@ takes='--slope --seconds' seconds=0.44
 prepare CR SR CF SF
 fit --route $route rolls
 velocities() { if [ "$column" = x ]; then differentiate -q -c x "$@"; else cat "$@"; fi; }
+forwards() { columns "$1" t v | awk -v OFS='\t' -v way="$way" '{ print $1, way * $2 }'; }
 separate readings readings
 for i in $(seq "$count"); do
   body "$i"
-  velocities "readings$i" >moving && columns moving t v >"raw$i"
+  case $(columns "fit$i" v0) in -*) way=-1 ;; *) way=1 ;; esac
+  velocities "readings$i" >moving && forwards moving >"raw$i"
   velocities "roll$i" | smooth -q -c v --seconds "$seconds" | whole_windows >smoothed
-  columns smoothed t v >"v$i"
-  simulate --law "fit$i" "${body[@]}" --at "roll$i" --columns t,v >"line$i"
+  forwards smoothed >"v$i"
+  simulate --law "fit$i" "${body[@]}" --at "roll$i" --columns t,v >moving && forwards moving >"line$i"
 done
 title='Fig. 1: the velocity against time, measured and by the fitted law'
 [ "$own" = 0 ] || key=$((((count < 16 ? count : 16) + 3) / 2))

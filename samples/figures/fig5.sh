@@ -106,7 +106,7 @@ set label quantity(vP_V, 'm/s') at x(3) - 46, low left font ',13'
 set label 'I_{pN} = '.quantity(I_pN, 'N') at x(3), current center font ',12'
 # Gravity takes off at rest what comes in of p_y.
 set arrow from x(3), y + high/2 to x(3), stored - 32 as 3
-set label 'F_G = '.quantity(F_G, 'N').":\ngravity takes off\nwhat p_y comes in" at x(3) - 10, stored - 56 right font ',12'
+set label 'F_G = '.quantity(F_G, 'N').":\ngravity takes away\nthe p_y that comes in" at x(3) - 10, stored - 56 right font ',12'
 set label "p_x and p_y\nfall to 0:" at x(4), top + 4 center font ',13'
 set label "P_{T3} = ".power(P_T3)."\nP_{T4} = ".power(P_T4) at x(4), y - 4 center font ',13'
 set label 'all dissipated' at x(4), current center font ',12'

@@ -46,6 +46,10 @@ samples/figures/fig2.sh -t png | head -c 8 | cmp -s - <(printf '\211PNG\r\n\032\
 samples/figures/fig4.sh -t pdf | head -c 5 | cmp -s - <(printf %%PDF-) || complain 'fig4: no PDF'
 has fig1 'velocity v / (m/s)' 'time t / s' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' 'fitted trajectory' \
   'before smoothing'
+# Each of the four runs is inside its panel, that towards falling x too.
+awk '/id="gnuplot_plot_[34][ab]"/ { run = $0 } !/id="gnuplot_plot_[34][ab]"/ && /id="gnuplot_plot_/ { run = "" }
+  run && /<use/ { points[run]++ }
+  END { for (run in points) if (points[run] > 15) runs++; exit runs != 4 }' "$scratch/fig1.svg" || complain 'fig1: not four runs'
 has fig1-stop 'velocity v / (mm/s)' 'distance from rest / mm' \
   'with a memory of 0.5 mm (given, not fitted)'
 has fig4 'velocity v / (m/s)' 'shift D / mm' 'C on rubber' 'S on rubber' 'C on felt' 'S on felt' \

@@ -90,6 +90,11 @@ refused 'say what rolled: -K 0.5 -R 0.04' fig1 samples/CR.csv
 refused '-t pngx: svg, png or pdf' fig1 -t pngx
 refused '--slope fit: a number, which fitpower --slope fit finds' fig4 -K 0.5 -R 0.04 --slope fit samples/CR.csv
 refused '--slope 1,5: a number, which fitpower --slope fit finds' fig1 --slope 1,5
+# What roll-back.sh says fits into the width, if no roll backwards is seen too.
+simulate --scene samples/CR.toml --sensor pasco --seed 3 >"$scratch/still"
+samples/figures/fig1-stop.sh -K 0.5 -R 0.04 "$scratch/still" 2>/dev/null >"$scratch/one.svg"
+texts "$scratch/one.svg" | grep -q 'not seen above the noise' || complain 'fig1-stop: a roll backwards without a memory'
+texts "$scratch/one.svg" | awk 'length > 75 { print "fig1-stop: too long: " $0; bad = 1 } END { exit bad }' || wrong=1
 # Ten rows, or as few as smooth takes for a roll, are a picture or a line.
 simulate --scene samples/CR.toml --dt 0.2 --columns t,x | awk '/^#/ { print; next } { printf "%s\t%.3f\n", $1, $2 }' >"$scratch/few"
 for figure in fig1 fig4 energy residuals; do
@@ -118,9 +123,11 @@ mkdir "$scratch/mirrored"
 awk -F, -v OFS=, 'NR > 1 && $2 != "" { $2 = -$2 } { print $1, $2 }' samples/CR.csv \
   >"$scratch/mirrored/CR.csv"
 cut -d , -f 1,2 samples/CR.csv >"$scratch/CR.csv"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
-samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/mirrored/CR.csv" |
-  cmp - "$scratch/towards-growing-x.svg" || complain "fig4 of a roll towards falling x"
+for figure in fig1 fig4; do
+  samples/figures/$figure.sh -K 0.5 -R 0.04 "$scratch/CR.csv" >"$scratch/towards-growing-x.svg"
+  samples/figures/$figure.sh -K 0.5 -R 0.04 "$scratch/mirrored/CR.csv" |
+    cmp - "$scratch/towards-growing-x.svg" || complain "$figure of a roll towards falling x"
+done
 mkdir "$scratch/swapped"
 awk -F, -v OFS=, '{ print $2, $1 }' "$scratch/CR.csv" >"$scratch/swapped/CR.csv"
 samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch/swapped/CR.csv" |
