@@ -46,7 +46,7 @@ source := $(wildcard lib/*/*.cpp)
 tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 object  = $(patsubst %.cpp,build/%.o,$1)
 
-.PHONY: all table1 samples figures report html check install uninstall static deb clean
+.PHONY: all table1 paper samples figures report html check install uninstall static deb clean
 .SECONDARY:
 all: $(tool:%=bin/%)
 
@@ -99,6 +99,14 @@ endif
 
 table1: all
 	@PATH="$$PWD/bin:$$PATH" samples/table1.sh
+
+# Each equation, table, figure and claim of the paper, for the samples and for another body.
+another := simulate -K 0.7 -R 0.03 -a 1.2e-3 -b 0.1 --v0 -0.6 --memory 1e-3 --sensor pasco --seed 7
+paper: all
+	@PATH="$$PWD/bin:$$PATH"; export PATH; mkdir -p build; $(another) >build/another.csv && \
+	{ samples/paper.sh && printf '\nAnother body, whose run.csv is made by: %s\n' '$(another)' && \
+	  samples/paper.sh -K 0.7 -R 0.03 -m 0.9 build/another.csv; } >samples/paper.new && \
+	mv samples/paper.new samples/paper.txt
 
 # The raw runs: simulated, so that the answer is known; see samples/README.md.
 sensor := --memory 5e-4 --damping 0.02 --sensor pasco

@@ -126,7 +126,8 @@ figure:target .back { display: inline-block; padding: .5rem 0; }
 <p>A rigid body on a rigid floor would roll for ever. On a mat it does not: the mat bulges in front
 of the body and pushes back at a point P, a distance <i>D</i> ahead of the lowest point. The law of
 the mat says how <i>D</i> depends on the velocity; it also determines where the energy goes. After Corridoni, D’Anna and Fuchs, <cite>Experiments and Models in Rolling Motion: Momentum, Angular
-Momentum, Energy, and Dissipation</cite>; the numbers of the equations are theirs.</p>
+Momentum, Energy, and Dissipation</cite>; the numbers of the equations are theirs.
+<code>samples/paper.sh</code> prints each of them with its command and what comes out.</p>
 <p>Four experiments: a solid cylinder C and a cylindrical shell S, on felt and on a rubber mat,
 followed by a sonar. <b>The runs here are not the authors’ measurements:</b>
 <code>simulate</code> made them from the paper’s values, with the noise, the rounding and the lost

@@ -28,7 +28,7 @@ done
 for goal; do
   case $goal in
     all | table1 | samples | install | uninstall | clean) continue ;;
-    figures | figures/* | report) need gnuplot-nox mandoc; continue ;;
+    figures | figures/* | report | paper) need gnuplot-nox mandoc; continue ;;
     html) need mandoc; continue ;;
     static) need binutils xz-utils; continue ;;
     static-arm64) need binutils xz-utils g++-aarch64-linux-gnu qemu-user; continue ;;

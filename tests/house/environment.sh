@@ -38,6 +38,7 @@ all_scripts() {
     for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn; do
       "$samples/figures/$name.sh" >"$out/$name.svg"
     done
+    "$samples/paper.sh" >"$out/paper"
     "$samples/report.sh" "$out" >"$out/report.html"
     sed -i '/<h2>How exact/,$d' "$out/report.html"  # it ends with a table of run times
   fi

@@ -38,7 +38,7 @@ done
 everything() {
   local tool kind name file
   rm -rf "$scratch/copy" && mkdir -p "$scratch/copy" "$2/exports"
-  tar -cf - Makefile cmd man samples tests/targets.mk | tar -xf - -C "$scratch/copy" || exit 2
+  tar -cf - Makefile README.md cmd man samples tests/targets.mk | tar -xf - -C "$scratch/copy" || exit 2
   ln -s "$PWD/bin" "$scratch/copy/bin"
   for file in "${scripts[@]}"; do
     case $(grep -v '^# SPDX' "$file" | head -n 1) in
@@ -67,6 +67,7 @@ everything() {
     for name in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn residuals; do
       samples/figures/$name.sh >"$2/$name.svg" || complain "$name.sh"
     done
+    samples/paper.sh >"$2/paper" || complain paper.sh
     samples/report.sh "$2" >"$scratch/report" || complain report.sh
     # Without the times that the solvers took.
     grep -v '^<tr><td>[a-z0-9]*</td>' "$scratch/report" >"$2/report"
