@@ -206,7 +206,7 @@ std::string line_of_fit(const std::string& route, const FitOptions& options,
 
 void add_options(Tool& tool, LawOptions& law) {
   tool.number("-a,--coefficient", law.power.a, positive,
-              "coefficient a of the law D = a v^b [m (s/m)^b]");
+              "coefficient a of the law D = a v^b: D at 1 m/s [m]");
   tool.number("-b,--exponent", law.power.b, any_number, "exponent b of the law");
   tool.text("--law", law.file, "FILE",
             "file (- is standard input) with the law: a row of fitpower or a table of v and D");

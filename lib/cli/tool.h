@@ -140,7 +140,7 @@ class Tool {
   void geometry(Geometry& geometry) {
     choice<Geometry>("--exact", geometry,
                      {{"false", Geometry::approximate}, {"true", Geometry::exact}},
-                     "exact geometry: A = sqrt(1 - D^2/R^2) (the paper sets A = 1)", Values::none);
+                     "exact geometry: A = sqrt(1 - D^2/R^2), instead of 1", Values::none);
   }
   void scene();        ///< --scene, whose keys are listed in tool_options.cpp
   void input();        ///< operands, --use --run --strict

@@ -40,7 +40,7 @@ class TableLaw {
 
 /// D = a v^b, the law of the paper. It is odd in v, since the mat is the same in both directions.
 struct PowerLaw {
-  double a;  ///< shift at 1 m/s [m (s/m)^b]
+  double a;  ///< shift at 1 m/s [m]
   double b;  ///< exponent
 
   /// Shift D [m] at the velocity v [m/s]: it has the sign of v and is 0 at rest.

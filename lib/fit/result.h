@@ -79,7 +79,7 @@ struct FitResult {
   Law law;
   std::vector<Estimate> coefficients = {};  ///< as the formula of the law names them, in SI units
   Matrix correlations = {};                 ///< 0 where one of the two is fixed
-  /// The same of a v^b, a in m (s/m)^b; NaN for another law.
+  /// The same of a v^b; NaN for another law.
   double a = NAN, sigma_a = NAN, b = NAN, sigma_b = NAN, corr = NAN;
   double rms;     ///< sqrt(RSS / (n - p)) in the unit of the fitted column (of ln D for loglog)
   std::size_t n;  ///< number of fitted rows
