@@ -37,6 +37,10 @@ struct MotionError : Error {
 struct NotOneRoll : MotionError {
   using MotionError::MotionError;
 };
+/// They go one way, where a slope or a wind acts as the law does.
+struct OneWay : MotionError {
+  using MotionError::MotionError;
+};
 /// They do not determine the exponent.
 struct LooseExponent : MotionError {
   using MotionError::MotionError;

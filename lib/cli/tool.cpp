@@ -184,6 +184,7 @@ const std::string choose_roll =
     "Choose it with smooth --coast, or with --from and --to";
 const std::map<std::type_index, std::string> ways_out{
     {typeid(NotOneRoll), choose_roll},
+    {typeid(OneWay), ": add runs in the other direction; their speeds are negative"},
     {typeid(LooseExponent), choose_roll + "; or fix it, --fix b=0"},
     {typeid(NoFreeRoll), ": choose the roll by its times (--from, --to)"},
     {typeid(WayBack),
@@ -203,9 +204,7 @@ std::string Tool::told(const Error& error) const {
   if (!readers_.empty() && std::ranges::any_of(readers_.back()->history(), is_coast))
     text = replace_all(text, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
   if (has("slope") && given("slope"))
-    text = replace_all(
-        text, {{"up a slope and back: --slope fit",
-                "a slope needs rolls both ways, and the speeds of the way back are negative"}});
+    text = replace_all(text, {{" (up a slope and back: --slope fit)", ""}});
   return text;
 }
 

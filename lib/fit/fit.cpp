@@ -115,16 +115,12 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
     return fmt::format("{:.3g}{}", c.value, has_errors ? fmt::format(" +- {:.3g}", c.sigma) : "");
   };
   if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
-    fail(
-        "a wind and the law slow the body down alike, and these runs go one way: add runs in the "
-        "other direction; their speeds are negative");
+    fail<OneWay>("a wind and the law slow the body down alike, and these runs go one way");
   if (options.fit_slope && !both_ways(found) &&
       !(has_errors && result.law.power() && all_known(result, options) && !not_visited(0) &&
         !not_visited(form.coefficients.size())))
-    fail(
-        "a slope and the law slow the body down alike, and these runs go one way ({} comes out as "
-        "{}): add runs in the other direction; their speeds are negative",
-        form.coefficients.front().name, shown(result.coefficients.front()));
+    refuse_one_way(fmt::format(" ({} comes out as {})", form.coefficients.front().name,
+                               shown(result.coefficients.front())));
   for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
     bool known = is_known(result, j, options);
     if (const Interval* profile = not_visited(j))

@@ -101,12 +101,11 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
     fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
   const Fitted power = fit_power(route, runs, options);
   Fitted found = fit_beside(power, *options.law);
-  std::string scene = power.scene.empty() ? " and the wind" : " and the slope of the mat";
-  scene += ": add runs in the other direction; their speeds are negative";
-  if (!was_found(found))
-    fail<MotionError>("the rows do not determine D = {}{}", options.law->formula,
-                      found.parameters().scene() > 0 ? scene : "");
-  return found;
+  if (was_found(found)) return found;
+  if (found.parameters().scene() == 0)
+    fail<MotionError>("the rows do not determine D = {}", options.law->formula);
+  fail<OneWay>("the rows do not determine D = {} and the {}", options.law->formula,
+               power.scene.empty() ? "wind" : "slope of the mat");
 }
 
 }  // namespace rolling

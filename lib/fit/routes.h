@@ -51,6 +51,9 @@ Minimum search(const Model&, const std::shared_ptr<const Noise>&,
 Minimum with_exponent_held(const Model&, const std::shared_ptr<const Noise>&,
                            std::vector<double> theta, double b);
 
+/// Says that the slope of the mat is not determined by runs in one direction; `found` follows.
+[[noreturn]] void refuse_one_way(const std::string& found = "");
+
 /// The fit of these runs with the weights of this noise.
 Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,
                 const FitOptions&);

@@ -77,6 +77,14 @@ Minimum minimise_along_wall(const Model& rolls, const std::shared_ptr<const Nois
   return best.rss < at_wall.rss ? best : evaluated(system, at_wall.theta);
 }
 
+/// True if all runs are rolls in one direction, and none turns.
+bool go_one_way(const Model& rolls) {
+  return rolls.is_roll() && std::ranges::all_of(rolls.runs(), [&](const ObservedRun& run) {
+           return run.way == rolls.runs().front().way &&
+                  way_before_turn(run.column == Quantity::x, run.t, run.y) == 0;
+         });
+}
+
 }  // namespace
 
 Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise>& noise,
@@ -97,11 +105,21 @@ Minimum search(const Model& model, const std::shared_ptr<const Noise>& noise,
   return beyond_cusps(model, system, minimise_along_wall(model, noise, starts.front()));
 }
 
+void refuse_one_way(const std::string& found) {
+  fail<OneWay>("a slope and the law slow the body down alike, and these runs go one way{}", found);
+}
+
 Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
                 std::shared_ptr<const Noise> noise, const FitOptions& options) {
-  Model model(std::move(runs), start.parameters);
-  Minimum minimum = search(model, noise, start.starts, options);
-  Fitted fit{.minimum = std::move(minimum), .noise = std::move(noise), .model = std::move(model)};
+  Fitted fit{};
+  fit.noise = std::move(noise);
+  fit.model = Model(std::move(runs), start.parameters);
+  try {
+    fit.minimum = search(fit.model, fit.noise, start.starts, options);
+  } catch (const NotOneRoll&) {
+    if (options.fit_slope && go_one_way(fit.model)) refuse_one_way();
+    throw;
+  }
   read_off(fit);
   return fit;
 }
