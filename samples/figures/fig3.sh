@@ -7,7 +7,7 @@
 #   fig3.sh [OPTION]... [FILE] >fig3.svg      the cylinder on rubber, or your own run
 #
 #   --at T             the instant [s] (the beginning of the free roll)
-takes=--at
+takes=--at m=1  # velocities do not depend on it
 . "$(dirname "$0")/draw.sh"
 instant 0 vP_H,vP_V
 title='Fig. 3: the velocity of P as a point of the body, to scale'

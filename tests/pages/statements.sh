@@ -45,7 +45,7 @@ says man/rolling.7 "$(smooth -q --coast "$scratch/run.csv" | fitpower -q -K 0.5 
 
 # README: the row of its first command in words, with C_rr; and of what the samples were made.
 says README.md "$(smooth -q --coast samples/CR.csv | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
-  printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** At 1 m/s the force of the mat acts %.2f mm ahead of the lowest point; there C_rr = D/R = %.3f.",
+  printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** At 1 m/s the force of the mat acts %.2f mm ahead of the lowest point, and C_rr = D/R = %.3f.",
     1e3 * $1, 1e5 * $2, $3, 1e3 * $4, 1e3 * $1, $1 / 0.04 }')"
 says README.md "$(awk '/^coefficient/ { a = $3 } /^exponent/ { b = $3 }
   END { printf "**All samples are simulated**, from a and b of the paper: here %.2f mm and %s.", 1e3 * a, b }' samples/CR.toml)"

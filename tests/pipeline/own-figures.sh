@@ -72,10 +72,13 @@ for figure in fig1 fig1-stop fig2 fig3 fig4 fig5 energy residuals; do
       complain "$figure $wrong_one: $said"
   done
   in_turn 4 || continue
-  samples/figures/$figure.sh -K 0.5 -R 40 -m 1.375 samples/CR.csv 2>&1 >/dev/null | grep -q 'if that is millimetres, write 0.04' ||
+  samples/figures/$figure.sh -K 0.5 -R 40 -m 1.375 samples/CR.csv 2>&1 >/dev/null | grep -q 'write 0.04 if that is millimetres' ||
     complain "$figure -R 40 is not told"
 done
 grep -q 'd0 = 1\.[0-9]* ± 0\.0[0-9]* mm,  d2 = ' "$scratch/law.svg" || complain 'residuals do not say another law'
+# Velocities need no mass.
+samples/figures/fig3.sh -K 0.5 -R 0.04 samples/CR.csv 2>/dev/null >"$scratch/one.svg" || complain 'fig3 needs a mass'
+samples/figures/fig3.sh -K 0.5 -R 0.04 -m 1.375 samples/CR.csv 2>/dev/null | cmp - "$scratch/one.svg" || complain 'fig3 depends on the mass'
 refused() {  # MESSAGE FIGURE OPERAND...: in one line, with status 2 and no picture
   local message=$1 status=0
   "samples/figures/$2.sh" "${@:3}" >"$scratch/one.svg" 2>"$scratch/said" || status=$?
