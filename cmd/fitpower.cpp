@@ -41,7 +41,8 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
               &options);
   add_height(tool, bodies.height);
   tool.add("--x0", "X,...",
-           "x at the start of runs of speeds [m]; one, or one for each run: 0,2400 (the column x)",
+           "x at the start of runs of speeds [m]; one, or one for each run: 0,2400 (the column x, "
+           "else fitted)",
            [&](const std::string& text) {
     for (const std::string& x : split_names(text, ','))
       bodies.begins.push_back(to_number(x, any_number));
@@ -134,6 +135,17 @@ std::vector<Cell> row_of(const FitOfRuns& fit) {
   if (r.x0.size() == 1) estimate({"x0", "m"}, r.x0.front());
   if (roll) row.push_back({{"t0", "s"}, fit.runs.front().t.front()});
   return row;
+}
+
+/// Says where runs of speeds begin, if the fit has found it.
+void say_begins(Tool& tool, const std::vector<FitOfRuns>& fits) {
+  std::string begins;
+  for (const FitOfRuns& fit : fits)
+    for (std::size_t r = 0; fit.result && r < fit.runs.size(); ++r) {
+      const auto& [x0, sigma] = fit.result->x0[r];
+      add_item(begins, fmt::format("{:.7g} +- {:.2g}", x0, sigma));
+    }
+  tool.warn(fmt::format("x0 is fitted, since there is no column x and no --x0: {} m", begins));
 }
 
 /// The line that says of what the rows were made.
@@ -233,8 +245,9 @@ int main(int argc, char** argv) {
 
     const auto road = read_road(tool, bodies.height);
     give_road(tool, bodies, road.get(), options, route);
-    auto runs =
-        read_runs(tool, in, route, road && route == Route::velocity && bodies.begins.empty());
+    const bool needs_x = road && route == Route::velocity && bodies.begins.empty();
+    options.fit_x0 = needs_x && !in.find("x");
+    auto runs = read_runs(tool, in, route, needs_x && !options.fit_x0);
     doubt_wind(tool, options, each ? 1 : runs.size());
     if (!each) warn_of_copies(tool, route, runs);
     if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
@@ -246,6 +259,7 @@ int main(int argc, char** argv) {
     if (first == fits.end()) return trouble;
 
     write(tool.out, fits, *first, options, each);
+    if (options.fit_x0) say_begins(tool, fits);
     const bool compares = with_report || tool.checks;
     if (options.robust && compares)
       tool.warn(

@@ -9,8 +9,8 @@
 #   --rotating KG    equivalent mass of the rotating parts [kg]: the sum of I/r^2 of the wheels, or, by
 #                    GTR 15, 3 % of the mass in running order and 25 kg
 #   --no-f1          F = f0 + f2 v^2: if f1 is 0, f0 and f2 come out seven times more precisely
-#   --slope S|fit    rise of the road along OUT (with --back fit, else 0)
-#   --height FILE    height of the road [m] over the way x [m]; --x0 X,... the starts of the runs
+#   --slope S|fit    rise of the road along OUT, or what the height lacks (with --back fit, else 0)
+#   --height FILE    height of the road [m] over the way x [m]; --x0 X,... starts of the runs (fitted)
 #   --wind W|fit     head wind of OUT [m/s]; fit finds one wind for all runs
 #   --column NAME=COLUMN   use this column as t or v, as --use of the tools; may be repeated
 #   -T C -p KPA      temperature and pressure of the day: prints C_d A and the load at the standard too
@@ -32,7 +32,7 @@ options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column...
 [ -z "$no_f1" ] || law='d0+d2*v^2'
 [ ${#operands[@]} -gt 0 ] || wrong 'there is no run'
 out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
-TM=$test_mass measured=$anemometer svg=$o road=(${height:+--height "$height"} ${x0:+--x0 "$x0"})
+TM=$test_mass measured=$anemometer svg=$o
 [ ${#out[@]} -gt 0 ] || wrong 'there is no run'
 [ "$m" ] && [ "$rotating" ] || wrong 'say the masses in kg: -m 1500 --rotating 60, or --rotating 0'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
@@ -51,7 +51,9 @@ case $standard in
   cfr) pressure=98.21 ;;
   *) wrong "--standard $standard: gtr15 or cfr" ;;
 esac
-[ "$slope" ] || { if [ ${#back[@]} -gt 0 ] && [ ${#road[@]} = 0 ]; then slope=fit; else slope=0; fi; }
+[ "$slope" ] || [ ${#back[@]} = 0 ] || slope=fit
+[ "$slope$height" ] || slope=0
+road=(${height:+--height "$height"} ${x0:+--x0 "$x0"} ${slope:+--slope "$slope"})
 [ "$wind" != fit ] || [ "$measured" = 0 ] || wrong '--wind fit: the wind is corrected by the fit, not by --anemometer'
 make_scratch
 
@@ -73,7 +75,6 @@ for i in "${!out[@]}"; do
 done >"$scratch/runs"
 for file in ${back[@]+"${back[@]}"}; do echo; coast "$file" -1; done >>"$scratch/runs"
 K=$(awk "BEGIN { print $rotating / $m }")
-[ ${#road[@]} -gt 0 ] || road=(--slope "$slope")
 fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"
 }
@@ -156,7 +157,7 @@ pairs() {
     }'
 }
 : >"$scratch/pairs"
-[ "${road[0]}" = --height ] || [ ${#out[@]} != ${#back[@]} ] || [ ${#out[@]} -lt 2 ] ||
+[ "$height" ] || [ ${#out[@]} != ${#back[@]} ] || [ ${#out[@]} -lt 2 ] ||
   pairs | tee "$scratch/pairs"
 [ "$svg" ] || exit 0
 

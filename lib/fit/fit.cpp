@@ -52,10 +52,10 @@ FitResult result_of(const Fitted& found, double rms, const Uncertainty& noise,
   auto of_scene = found.scene.begin();
   for (std::size_t i = 0; i < scene_numbers.size(); ++i)
     if (found.parameters().fits(i)) result.scene[i] = next((of_scene++)->value);
-  for (const auto& [of_runs, estimates] :
-       {std::pair(&found.v0, &result.v0), {&found.x0, &result.x0}})
-    for (const FittedNumber& of_run : *of_runs)
-      estimates->push_back(estimates->empty() ? next(of_run.value) : Estimate{of_run.value});
+  for (const FittedNumber& v0 : found.v0)
+    result.v0.push_back(result.v0.empty() ? next(v0.value) : Estimate{v0.value});
+  for (const FittedNumber& x0 : found.x0)
+    result.x0.push_back(number < covariance.size() ? next(x0.value) : Estimate{x0.value});
   result.shares = std::move(shares);
   return result;
 }
@@ -202,7 +202,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
   if (found.error_of_clock > 0) {
     std::vector<double> of_v0(found.numbers().size());
-    of_v0[of_v0.size() - 1 - !found.x0.empty()] = found.error_of_clock;
+    of_v0[found.coefficients.size() + found.scene.size()] = found.error_of_clock;
     shares.push_back({"clock", outer_square(of_v0)});
   }
   FitResult result = result_of(found, rms, noise, std::move(shares));

@@ -54,7 +54,9 @@ void read_off(Fitted& fit) {
   for (std::size_t r = 0; r < fit.model.runs().size(); ++r) {
     const double way = fit.model.runs()[r].way;
     fit.v0.push_back(number(way * q.v0(theta, r), {way}));
-    if (q.has_x0()) fit.x0.push_back(number(q.x0(theta, r), {0, 1}));
+    if (!q.has_x0()) continue;
+    fit.x0.push_back(number(q.x0(theta, r), {0, 1}));
+    fit.x0.back().run = r;
   }
 }
 
@@ -68,7 +70,8 @@ std::vector<FittedNumber> Fitted::numbers() const {
   std::vector<FittedNumber> all = coefficients;
   all.insert(all.end(), scene.begin(), scene.end());
   if (!v0.empty()) all.push_back(v0.front());
-  if (!x0.empty()) all.push_back(x0.front());
+  for (const FittedNumber& x : x0)
+    if (x.run == 0 || !parameters().of_positions()) all.push_back(x);
   return all;
 }
 

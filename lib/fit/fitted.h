@@ -16,6 +16,7 @@ namespace rolling {
 struct FittedNumber {
   double value;
   std::vector<double> gradient;
+  std::size_t run = 0;
 };
 
 /// The noise of independent sources, as the residuals of a fit show it: theta - truth is
@@ -49,7 +50,7 @@ struct Fitted {
   double error_of_clock = 0;  ///< of the v0 of the first run, if its rows do not tell their times
   std::vector<FittedNumber> scene = {};  ///< the numbers of it that are parameters
   std::vector<FittedNumber> v0 = {};     ///< one for each run, if the model is a roll
-  std::vector<FittedNumber> x0 = {};     ///< likewise, if positions are fitted
+  std::vector<FittedNumber> x0 = {};     ///< likewise, if they are parameters
   Model model = {};
 
   bool is_roll() const { return model.is_roll(); }
@@ -58,7 +59,8 @@ struct Fitted {
   const Parameters& parameters() const { return model.parameters(); }
   Law law() const;
   /// The numbers that have errors: the coefficients, those of the scene, and v0 and x0
-  /// of the first run, if the model has them. A row reports these of a single run alone.
+  /// of the first run, if the model has them. A row reports these of a single run alone. If speeds
+  /// tell x0, it is that of all runs.
   std::vector<FittedNumber> numbers() const;
   /// The highest speed that was fitted.
   double fastest() const;

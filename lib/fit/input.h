@@ -69,6 +69,7 @@ struct FitOptions {
   bool fit_slope = false;      ///< the slope of the mat is a further parameter, common to all runs
   bool fit_wind = false;       ///< so is the wind, of a law with the drag of the air
   bool fit_steepness = false;  ///< so is the factor of the height of a road
+  bool fit_x0 = false;         ///< so is where each run of speeds begins on it
   double min_speed = 0;        ///< rows slower than this are not fitted [m/s]
   /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
   /// more rows, no known filter): differences of x, and for comparison means of v.

@@ -35,7 +35,7 @@ Parameters::Parameters(const FitOptions& options, bool position, std::size_t run
     : fixed_{options.v0, options.x0, options.a, options.b, 0}, unit_{v_ref, x_ref, 1, 1, 1},
       fit_wind_(options.fit_wind), position_(position), runs_(runs), v_unit_(v_ref) {
   if (options.v0) fixed_[0] = std::abs(*options.v0);
-  if (!position) fixed_[1] = 0;
+  if (!position && !options.fit_x0) fixed_[1] = 0;
   for (std::size_t i = 0; i < scene_numbers.size(); ++i) {
     unit_[first_of_scene + i] = scene_numbers[i].unit;
     if (i == place_of_wind || !(options.*scene_numbers[i].is_fitted))
@@ -60,9 +60,9 @@ Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) c
   return other;
 }
 
-Parameters Parameters::with_exponent(double b) const {
+Parameters Parameters::with(std::size_t number, double value) const {
   Parameters other = *this;
-  other.fixed_[first_of_law + 1] = b;
+  other.fixed_[number] = value;
   return other;
 }
 
@@ -232,7 +232,7 @@ std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
 }
 
 std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& parameters) {
-  if (parameters.has_x0()) return 0;
+  if (parameters.of_positions()) return 0;
   return static_cast<std::size_t>(std::ranges::count(runs, Quantity::x, &ObservedRun::column));
 }
 
@@ -279,7 +279,7 @@ RawModel rolled(const ObservedRun& run, Roll roll, double x0) {
     const Roll::Point p = roll.at(t);
     const Roll::Derivatives& by_c = position ? p.x_c : p.v_c;
     const std::size_t slope = roll.law().size();  // then wind and steepness; way^2 is 1
-    std::array<double, 1 + columns> values{x0 + way * (position ? p.x : p.v),
+    std::array<double, 1 + columns> values{position ? x0 + way * p.x : way * p.v,
                                            way * (position ? p.x_v0 : p.v_v0),
                                            position ? p.x_x0 : p.v_x0};
     double* const by = &values[1];

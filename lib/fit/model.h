@@ -58,8 +58,8 @@ class Parameters {
   Parameters(const FitOptions&, double v_unit);
   /// The same parameters with another law, all of whose coefficients are free.
   Parameters with(const LawForm&, double D_unit, double v_unit) const;
-  /// The same parameters with the exponent of a v^b fixed.
-  Parameters with_exponent(double b) const;
+  /// The same parameters with one of Numbers fixed, such as the exponent of a v^b.
+  Parameters with(std::size_t number, double value) const;
   /// The same parameters of so many runs.
   Parameters of_runs(std::size_t n) const;
   /// The parameters of a single run in a scene that is fixed.
@@ -78,7 +78,8 @@ class Parameters {
   std::size_t own() const { return free(0, first_of_law); }
   std::size_t columns() const { return free(0, most); }
   std::size_t count() const { return runs_ * own() + shared(); }
-  bool has_x0() const { return position_; }
+  bool has_x0() const { return position_ || !fixed_[1]; }
+  bool of_positions() const { return position_; }
 
   Law law(const std::vector<double>& theta) const;
   double v0(const std::vector<double>& theta, std::size_t run) const {

@@ -34,6 +34,23 @@ std::vector<std::vector<double>> narrowed(const Fitted& fit,
   return starts;
 }
 
+/// The start with the best of the other parameters at its x0. Where speeds tell x0, a search from a
+/// law that is far off would leave the place where the runs begin.
+std::vector<double> with_x0_held(const Fitted& fit, const std::vector<double>& start) {
+  const Parameters& q = fit.parameters();
+  std::vector<ObservedRun> runs = fit.model.runs();
+  std::vector<double> held = start;
+  for (std::size_t r = runs.size(); r-- > 0;) {
+    runs[r].x0 = q.x0(start, r);
+    held.erase(held.begin() + static_cast<std::ptrdiff_t>((r + 1) * q.own() - 1));
+  }
+  Minimum best{held};
+  improve(best, system_of(Model(std::move(runs), q.with(1, 0)), fit.noise), held);
+  for (std::size_t place = q.own() - 1; place < start.size() - q.shared(); place += q.own())
+    best.theta.insert(best.theta.begin() + static_cast<std::ptrdiff_t>(place), start[place]);
+  return best.theta;
+}
+
 }  // namespace
 
 Fitted fit_beside(const Fitted& power, const LawForm& law) {
@@ -57,6 +74,8 @@ Fitted fit_beside(const Fitted& power, const LawForm& law) {
     }
   }
   starts = narrowed(fit, std::move(starts));
+  if (fit.parameters().has_x0() && !fit.parameters().of_positions())
+    for (std::vector<double>& start : starts) start = with_x0_held(fit, start);
   for (const auto& start : starts) improve(fit.minimum, fit.system(), start);
   if (was_found(fit)) read_off(fit);
   return fit;

@@ -93,7 +93,7 @@ Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise
   const auto exponent = static_cast<std::ptrdiff_t>(q.count() - q.scene() - 1);
   theta.erase(theta.begin() + exponent);
   Minimum found{theta};
-  improve(found, system_of(rolls.with(q.with_exponent(b)), noise), theta);
+  improve(found, system_of(rolls.with(q.with(q.first_of_law + 1, b)), noise), theta);
   found.theta.insert(found.theta.begin() + exponent, b);
   return found;
 }

@@ -210,6 +210,63 @@ EndOfRun end_of(const ObservedRun& run, const std::vector<double>& x, bool first
   return {c[0], c.size() > 1 ? c[1] : 0};
 }
 
+/// The way from the beginning, of speeds.
+std::vector<double> way_from_begin(const ObservedRun& run) {
+  std::vector<double> way(run.t.size());
+  for (std::size_t i = 1; i < way.size(); ++i)
+    way[i] = way[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+  return way;
+}
+
+/// How far the energy of these speeds is from that under a law d0 + d2 v^2, if they begin at x0:
+/// the sum of squares of E/(m g) + h, less a linear function of the integrals of |dx| and v^2 |dx|.
+double unevenness(const ObservedRun& run, const std::vector<double>& way, double x0) {
+  const std::size_t step = 1 + way.size() / 500;  // so many rows are enough
+  Triangles R(1, 3, 0);
+  double squares = 0;
+  double rolled = 0;
+  double blown = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double dx = i > 0 ? std::abs(way[i] - way[i - 1]) : 0;
+    const double v2 = run.y[i] * run.y[i];
+    rolled += dx;
+    blown += v2 * dx;
+    if (i % step != 0) continue;
+    double f = (1 + run.body.K) / 2 * v2 / run.body.g + run.body.road->at(x0 + way[i]).h;
+    squares += f * f;
+    double J[] = {1, rolled, blown};
+    R.add(0, {&f, 1}, J);
+  }
+  return squares - R.reduction();
+}
+
+/// Where speeds begin on their road, by their energy. Throws Error if other places are as likely.
+double likely_begin(const ObservedRun& run) {
+  const std::vector<double> way = way_from_begin(run);
+  const auto [least, greatest] = std::ranges::minmax(way);
+  const std::vector<double>& points = run.body.road->points();
+  const double room = points.back() - points.front() - (greatest - least);
+  if (!(room > 0))
+    fail("{}the way of {:.4g} m is longer than the table of heights", run.place, greatest - least);
+  std::vector<double> off(201 + 2 * points.size());
+  const auto place = [&, first = points.front() - least](auto at) {
+    return first +
+           room * static_cast<double>(at - off.begin()) / static_cast<double>(off.size() - 1);
+  };
+  for (auto at = off.begin(); at != off.end(); ++at) *at = unevenness(run, way, place(at));
+  const auto best = std::ranges::min_element(off);
+  const double noise = *best / static_cast<double>(way.size());
+  const double limit = *best + 4 * noise;
+  const auto likely = [&](double x) { return x <= limit; };
+  const auto first = std::ranges::find_if(off, likely);
+  auto last = off.end() - 1;
+  while (!likely(*last)) --last;
+  if (*std::max_element(first, last) > limit + 36 * noise || last - first + 1 == std::ssize(off))
+    fail("{}the speeds do not show where the run begins: x = {:.4g} m is as likely as {:.4g} m",
+         run.place, place(first), place(last));
+  return place(best);
+}
+
 /// The same on a road: D by the energy that is lost between the ends of the runs.
 EvenRoll even_roll_on_road(const std::vector<ObservedRun>& runs) {
   const bool position = runs.front().column == Quantity::x;
@@ -217,9 +274,8 @@ EvenRoll even_roll_on_road(const std::vector<ObservedRun>& runs) {
   double lost = 0;
   double all = 0;  // the way, in units of R
   for (const ObservedRun& run : runs) {
-    std::vector<double> x = run.y;
-    for (std::size_t i = 0; i < x.size() && !position; ++i)
-      x[i] = i == 0 ? run.x0 : x[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+    std::vector<double> x = position ? run.y : way_from_begin(run);
+    for (std::size_t i = 0; i < x.size() && !position; ++i) x[i] += run.x0;
     const EndOfRun begin = end_of(run, x, true);
     const EndOfRun end = end_of(run, x, false);
     even.v0.push_back(run.way * begin.v);
@@ -248,9 +304,11 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
     thin.push_back(thinned(seen[r], options));
     seen[r] = thin.back().run;
   }
-  const EvenRoll even = on_road ? even_roll_on_road(runs) : even_roll(thin, options.fit_slope);
+  for (ObservedRun& run : seen)
+    if (options.fit_x0) run.x0 = likely_begin(run);
+  const EvenRoll even = on_road ? even_roll_on_road(seen) : even_roll(thin, options.fit_slope);
   const bool position = runs.front().column == Quantity::x;
-  const Parameters q(options, position, runs.size(), even.v, position ? even.v * even.time : 1);
+  const Parameters q(options, position, runs.size(), even.v, even.v * even.time);
   // For a grid of laws: the shift at that speed is that of an even deceleration.
   std::vector<double> exponents{0.25, 0, 1, -0.5};
   if (on_road) exponents = {0.03, 0.5};

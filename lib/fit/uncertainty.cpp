@@ -40,13 +40,16 @@ Matrix covariance_of(const Fitted& fit, std::vector<double> M) {
     for (std::size_t j = own; j < q; ++j)
       for (std::size_t at = i * q + j + q * q; at < M.size(); at += q * q) M[i * q + j] += M[at];
   auto numbers = fit.numbers();
-  for (FittedNumber& x : numbers) fit.minimum.R.solve_transposed(0, x.gradient);
+  for (FittedNumber& x : numbers) fit.minimum.R.solve_transposed(x.run, x.gradient);
   Matrix C(numbers.size(), std::vector<double>(numbers.size(), 0));
   for (std::size_t a = 0; a < numbers.size(); ++a)
     for (std::size_t b = 0; b < numbers.size(); ++b) {
+      if (numbers[a].run != numbers[b].run) continue;  // nobody asks for it
       for (std::size_t i = 0; i < q; ++i)
-        for (std::size_t j = 0; j < q; ++j)
-          C[a][b] += numbers[a].gradient[i] * M[i * q + j] * numbers[b].gradient[j];
+        for (std::size_t j = 0; j < q; ++j) {
+          const std::size_t of_run = std::min(i, j) < own ? numbers[a].run * q * q : 0;
+          C[a][b] += numbers[a].gradient[i] * M[of_run + i * q + j] * numbers[b].gradient[j];
+        }
     }
   return C;
 }

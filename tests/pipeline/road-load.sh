@@ -26,13 +26,13 @@ are() { while read -r name value tolerance; do complaint=$(is "$name" "$value" "
 # its law is F/(m g). f* are those of the worked example: w1 2.5 N, K1 1.190476 N, a factor .9312 for
 # 12 C and .980541 for 285 K and 99.2 kPa.
 awk 'BEGIN { w = 1512 * 9.81; printf "d0[m] d1[s] d2[s^2/m]\n%.17g %.17g %.17g\n", 150 / w, 0.8 * 3.6 / w, 0.030864198 * 12.96 / w }' >car
-run() {  # SLOPE SEED [OPTION]...: in km/h, without a sign, and with a noise of .05 km/h
-  simulate --law car -K 0.04 -R 1 --v0 36 --dt 0.5 --until 90 --columns t,v --slope "$1" "${@:3}" |
-    awk -v seed="$2" -v size="$size" 'BEGIN { print "Time (s),Speed (km/h)" }
+run() {  # SEED [OPTION]...: in km/h, without a sign, and with a noise of .05 km/h
+  simulate --law car -K 0.04 -R 1 --v0 "${v0:-36}" --dt 0.5 --until 90 --columns t,v "${@:2}" |
+    awk -v seed="$1" -v size="$size" 'BEGIN { print "Time (s),Speed (km/h)" }
       function uniform() { seed = seed * 16807 % 2147483647; return seed / 2147483647 }
-      !/^#/ { printf "%s,%.17g\n", $1, 3.6 * $2 + size * (uniform() - uniform()) }'
+      !/^#/ { sub(/-/, "", $2); printf "%s,%.17g\n", $1, 3.6 * $2 + size * (uniform() - uniform()) }'
 }
-size=0 && run 0 1 >out
+size=0 && run 1 >out
 load -m 1512 --rotating 60.48 --test-mass 1500 -T 12 -p 99.2 --anemometer 2.5 out >table || complain "$(cat said)"
 are <<'END'
 f0 150 1e-6
@@ -45,7 +45,7 @@ END
 
 # Both ways on a road that rises by 1 mm a metre: within four standard uncertainties; F of the pairs.
 size=0.1
-for i in 1 2 3; do run 0.001 "10$i" >"out$i"; run -0.001 "20$i" >"back$i"; done
+for i in 1 2 3; do run "10$i" --slope 0.001 >"out$i"; run "20$i" --slope -0.001 >"back$i"; done
 load -m 1512 --rotating 60.48 out[1-3] --back back1 --back back2 --back back3 >table || complain "$(cat said)"
 awk -F '\t' '
   function far(value) { return ($2 - value)^2 > 16 * $3^2 }
@@ -69,13 +69,24 @@ grep -q '^fitpower: run coarse:' said || complain "another name: $(cat said)"
 # In a wind of 3 m/s that is fitted; without f1.
 size=0.1
 awk 'BEGIN { w = 1512 * 9.81; printf "d0[m] d2[s^2/m]\n%.17g %.17g\n", 150 / w, 0.4 / w }' >car
-run 0 31 --wind 3 >out1
-run 0 32 --wind -3 >back1
+run 31 --wind 3 >out1
+run 32 --wind -3 >back1
 load --no-f1 --wind fit -m 1512 --rotating 60.48 out1 --back back1 >table || complain "$(cat said)"
 awk -F '\t' '
   function far(value) { return ($2 - value)^2 > 16 * $3^2 }
   $1 == "f0" && (far(150) || $3 > 3) || $1 == "wind" && far(3)' table | grep . && wrong=1
 [ "$(grep -c '^f[02]\|^wind' table)" = 3 ] || complain "not all of them: $(cat table)"
+
+# Over hills of 1 m that were surveyed: the fit finds where the runs begin, and what the survey lacks.
+awk 'BEGIN { OFMT = CONVFMT = "%.17g"; pi = atan2(0, -1); print "# x[m]\th[m]"; for (x = -100; x < 2500; x += 10) print x "\t" sin(2 * pi * x / 800) + 0.0005 * x }' >survey
+awk '!/#/ { $2 -= 0.0005 * $1 } { print }' survey >hills
+run 41 --height survey >out1
+v0=-36 run 42 --height survey --x0 2400 >back1
+load --no-f1 --height hills -m 1512 --rotating 60.48 out1 --back back1 >table || complain "$(cat said)"
+awk -F '\t' '
+  function far(value) { return ($2 - value)^2 > 16 * $3^2 }
+  $1 == "f0" && (far(150) || $3 > 1) || $1 == "slope" && (far(0.0005) || $3 > 5e-5)' table | grep . && wrong=1
+[ "$(grep -c '^f[02]\|^slope' table)" = 3 ] || complain "not all of them: $(cat table)"
 
 for words in '' 'out1' '-m 1512 out1' '-m 1512 --rotating x out1' '-m 1512 --rotating 1 --standard sae out1' '-m 1512 --rotating 1 nowhere'; do
   # shellcheck disable=SC2086
