@@ -136,6 +136,8 @@ struct Task {
         fail<OptionError>(
             "sigma_x and sigma_v do not have the uncertainty of the {} of the row: say --{}", name,
             name);
+    if (foretells && !std::isnan(law_of_file.steepness))
+      fail("sigma_x and sigma_v do not have the uncertainty of the steepness of the row");
     if (roll.v0 < 0 && roll.body.road) roll.body.road = roll.body.road->mirrored();
     if (roll.v0 < 0)
       way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way,

@@ -179,6 +179,7 @@ std::string words_of(const Body& body, const std::string& height) {
   if (body.slope != 0) words += fmt::format(" slope {}", body.slope);
   if (body.wind != 0) words += fmt::format(" wind {}", body.wind);
   if (!height.empty()) words += " height " + std::string(shown(height));
+  if (body.steepness != 1) words += fmt::format(" steepness {}", body.steepness);
   return words;
 }
 

@@ -33,7 +33,7 @@ std::vector<std::string> correlations_of(const LawForm&);
 /// "a 0.00187 b 0.215", "d0 0.001 d2 0.0004" or "table", for `##` lines.
 std::string words_of(const Law&);
 
-/// " slope 0.01 wind 2 height FILE", each if there is one, for `##` lines.
+/// " slope 0.01 wind 2 height FILE steepness 0.99", each if there is one, for `##` lines.
 std::string words_of(const Body&, const std::string& height);
 
 /// The line of fitpower above its rows: `fitpower VERSION ROUTE [LAW] K 0.5+-0.005 R 0.04 g 9.81
