@@ -259,6 +259,8 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   const double v0 = parameters_.v0(theta, run);
   if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
   if (!body.road) return {body, runs()[run].geometry, law, v0};
+  // A search may come to such laws, under which a body in a hollow creeps: this takes seconds.
+  if (law.at(parameters_.speed_unit()).D > body.R) fail("D is beyond the radius");
   const double way = runs()[run].way;
   if (way < 0) body.road = body.road->mirrored();
   const double x0 = parameters_.has_x0() ? parameters_.x0(theta, run) : runs()[run].x0;

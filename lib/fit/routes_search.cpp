@@ -51,12 +51,12 @@ bool ends_at_an_edge(const Minimum& at) {
 }
 
 /// A body that turns on a slope would be held there under a v^b with b < 0, so that the sum of
-/// squares has a wall at b = 0. True if b is free and a run goes uphill at theta.
+/// squares has a wall at b = 0. True if b is free and a run goes uphill at theta, or on a road.
 bool has_wall(const Model& rolls, const std::vector<double>& theta) {
   const Parameters& q = rolls.parameters();
   if (!rolls.is_roll() || &q.form() != &laws().front() || q.fixed(1)) return false;
   return std::ranges::any_of(rolls.runs(), [&](const ObservedRun& run) {
-    return run.way * q.body(theta, run.body).slope > 0;
+    return run.body.road || run.way * q.body(theta, run.body).slope > 0;
   });
 }
 
