@@ -149,6 +149,7 @@ class Account {
     }
     begun_ = true;
     end_ = stored;
+    largest_ = std::max(largest_, std::abs(stored));
     mat_.push(t, to_mat);
     gravity_.push(t, to_gravity);
     const double off = std::abs(missing() - mat_.value());
@@ -173,6 +174,9 @@ class Account {
   /// missing at its end: 0 if shift and velocity agree at every moment. NaN as in closure().
   double imbalance() const { return missing() == 0 ? NAN : worst_ / std::abs(missing()); }
   double time_of_imbalance() const { return worst_time_; }  ///< the time of that moment [s]
+  /// False if less than a tenth of the largest store is missing, as of the momentum of a body that
+  /// has swung to and fro: the closure then says little.
+  bool closure_tells() const { return std::abs(missing()) > largest_ / 10; }
 
  private:
   double missing() const { return start_ - end_ - to_gravity(); }
@@ -180,6 +184,7 @@ class Account {
   Integral mat_, gravity_;
   bool begun_ = false;
   double start_ = 0, end_ = 0, lifted_ = 0;
+  double largest_ = 0;                 // of the store
   double worst_ = 0, worst_time_ = 0;  // the largest imbalance and its time [s]
 };
 

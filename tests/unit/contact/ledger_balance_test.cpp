@@ -173,3 +173,12 @@ TEST_CASE("a body without angular momentum has no closure of it", "[contact]") {
   CHECK(std::isnan(balance.L.closure()));
   CHECK(!std::isnan(balance.p.closure()));
 }
+
+TEST_CASE("a closure tells if a tenth of the largest store is missing", "[contact]") {
+  for (const double end : {0.89, 0.91, -0.95}) {
+    Account account;
+    account.push(0, 1, 0, 0);
+    account.push(1, end, 0, 0);
+    CHECK(account.closure_tells() == (end < 0.9));
+  }
+}
