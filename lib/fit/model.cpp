@@ -52,6 +52,7 @@ Parameters::Parameters(const FitOptions& options, double v_unit)
 Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) const {
   Parameters other = *this;
   other.form_ = &form;
+  other.is_power_ = &form == &laws().front();
   other.D_unit_ = D_unit;
   other.v_unit_ = v_unit;
   std::fill_n(&other.fixed_[first_of_law], LawForm::most, 0);
@@ -98,7 +99,7 @@ Law Parameters::law(const std::vector<double>& theta) const {
   const Numbers all = numbers(theta, 0);
   std::array<double, LawForm::most> c{};
   std::copy_n(&all[first_of_law], c.size(), c.begin());
-  if (is_power()) c[0] = fixed(0) ? c[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
+  if (is_power_) c[0] = fixed(0) ? c[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
   return {*form_, c, D_unit_, v_unit_};
 }
 
@@ -147,7 +148,7 @@ void Parameters::chain(double* to, std::size_t stride, double c0,
   for (std::size_t i = 0; i < most; ++i) {
     if (fixed_[i]) continue;
     double by_theta = by[i] * unit_[i];
-    if (is_power() && i == first_of_law) by_theta *= c0;  // theta holds ln c0
+    if (is_power_ && i == first_of_law) by_theta *= c0;  // theta holds ln c0
     if (i == first_of_law + 1 && fixed(0)) by_theta += c0 * std::log(v_unit_) * by[first_of_law];
     *std::exchange(to, to + stride) = by_theta;
   }

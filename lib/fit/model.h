@@ -103,13 +103,13 @@ class Parameters {
   void chain(double* to, std::size_t stride, double c0, const Numbers& by) const noexcept;
 
  private:
-  bool is_power() const { return form_ == &laws().front(); }
   std::size_t free(std::size_t first, std::size_t end) const;
   Numbers numbers(const std::vector<double>& theta, std::size_t run) const;
 
   const LawForm* form_ = &laws().front();
   std::array<std::optional<double>, most> fixed_ = {};  // coefficients of a v^b in SI units
   Numbers unit_ = {};                                   // of the elements of theta
+  bool is_power_ = true;                                // the law is a v^b
   bool fit_wind_ = false;
   bool position_ = false;
   std::size_t runs_ = 0;
