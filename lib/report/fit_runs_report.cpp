@@ -225,11 +225,11 @@ class Remarks {
     const bool repeat =
         repeats >= 10 && of_grid < levels::grid_of_rms && share > levels::repeats_of_grid;
     if (!are_held(y) && (!is_trajectory(fit_.route) || (!bare && !repeat))) return false;
-    tool_.warn(run.name, fmt::format("the {} repeat, or have hardly any noise but their rounding: "
-                                     "these errors are correlated, and sigma_a and sigma_b may be "
-                                     "too small; keep only rows with a new reading, or see how "
-                                     "several runs scatter",
-                                     positions ? "positions" : "speeds"));
+    tool_.warn(run.name,
+               fmt::format("the {} repeat, or have hardly any noise but their rounding: "
+                           "these errors are correlated, and {} may be too small; keep "
+                           "only rows with a new reading, or see how several runs scatter",
+                           positions ? "positions" : "speeds", sigmas_));
     return true;
   }
 
@@ -249,24 +249,26 @@ class Remarks {
           fmt::format(
               "the speed changes once a turn ({}; 1 % of good runs get this warning), as "
               "if the centre of mass lay {:.2g} +- {:.1g} mm off the axis, most ahead of it "
-              "at {:.0f} degrees: sigma_a and sigma_b are too small; balance the body, "
-              "unless --report shows a better law",
+              "at {:.0f} degrees: {} are too small; balance the body, unless --report shows a "
+              "better law",
               p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
-              std::fmod(found->phase * 180 / std::numbers::pi + 360, 360)));
+              std::fmod(found->phase * 180 / std::numbers::pi + 360, 360), sigmas_));
     if (noise_is_correlated(r_) && !tool_.checks) tell_not_white();
     else if (r_.reversals <= levels::few_reversals && r_.errors != Errors::uneven)
       tool_.warn(run_,
-                 "the readings look like medians or means of others: too few turn back against the "
-                 "motion; their noise is correlated, and sigma_a and sigma_b may be too small; fit "
-                 "what the sensor read");
+                 fmt::format("the readings look like medians or means of others: too few turn "
+                             "back against the motion; their noise is correlated, and {} may "
+                             "be too small; fit what the sensor read",
+                             sigmas_));
     if (r_.errors == Errors::uneven)
       tool_.warn(run_,
                  r_.clock_noise > 0
-                     ? fmt::format("the noise grows with the speed, as by times that are off by "
-                                   "{:.2g} s; sigma_a and sigma_b allow for it",
-                                   r_.clock_noise)
-                     : "the size of the noise changes along the run; sigma_a and sigma_b allow for "
-                       "it: look at the residuals");
+                     ? fmt::format("the noise grows with the speed, as by times that are off "
+                                   "by {:.2g} s; {} allow for it",
+                                   r_.clock_noise, sigmas_)
+                     : fmt::format("the size of the noise changes along the run; {} allow for "
+                                   "it: look at the residuals",
+                                   sigmas_));
   }
 
   /// The name of a coefficient or, behind them, of a number of the scene.
@@ -322,6 +324,7 @@ class Remarks {
   const FitResult& r_;
   double fits_;
   std::string run_ = fit_.runs.size() == 1 ? fit_.runs[0].name : "";  ///< none of several
+  const char* sigmas_ = r_.law.power() ? "sigma_a and sigma_b" : "the standard uncertainties";
   bool noisy_;
   bool spoilt_ = false;
 };
