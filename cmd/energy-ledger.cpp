@@ -252,6 +252,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     tool.checks = !std::isnan(task.tolerance);
+    if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
     if (task.summary)
       tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
     else task.row = chosen(columns, quantities);

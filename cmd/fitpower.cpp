@@ -228,6 +228,7 @@ int main(int argc, char** argv) {
   tool.output();
 
   return tool.run(argc, argv, [&] {
+    if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
     if (tool.on_command_line("route") && !given_route) {
       refuse_runs(tool);
       fit_rows(tool, bodies);

@@ -121,9 +121,11 @@ void Tool::equal_times() {
 }
 
 void Tool::accept() {
-  add(
-      "--accept", "RUN", "let this run pass the check; may be repeated",
-      [this](const std::string& run) { accepted_.insert(run); }, Values::many);
+  const auto take = [this](const std::string& run) {
+    if (run.empty()) fail("'' is no value");
+    accepted_.insert(run);
+  };
+  add("--accept", "RUN", "let this run pass the check; may be repeated", take, Values::many);
 }
 
 void Tool::output() {

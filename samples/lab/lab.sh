@@ -24,8 +24,8 @@ c=x slope=0 o=results
 options '-K -R -m -c --slope --use... -o --check! --accept...' "$@"
 [ "$K" ] && [ "$R" ] || wrong 'say what rolled: -K 0.5 -R 0.04'
 case $c in
-  x) route=position speeds=differentiate each=${check:+-q --check} ;;
-  v) route=velocity speeds=smooth each='' ;;
+  x) route=position speeds=differentiate ;;
+  v) route=velocity speeds=smooth ;;
   *) wrong "-c $c: x or v" ;;
 esac
 [ ! -e "$o" ] || [ -e "$o/made-by-lab" ] ||
@@ -54,12 +54,17 @@ named "$scratch/rolls" "${used[0]}" >"$new/rolls"
 runs=$(grep -c '^## run ' "$new/rolls")
 
 fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" --slope "$slope" "$@"; }
-accepted=(${accept[@]+"${accept[@]/#/--accept=}"})
+accepted=() checks=() each=()
+if [ "$check" ]; then
+  accepted=(${accept[@]+"${accept[@]/#/--accept=}"})
+  checks=(--check ${accepted[@]+"${accepted[@]}"})
+  [ "$c" = v ] || each=(-q "${checks[@]}")
+fi
 if [ "$slope" = fit ]; then
   fit "$new/rolls" >"$new/slope.txt"
   slope=$(columns "$new/slope.txt" slope)
 fi
-fit --each $each ${accepted[@]+"${accepted[@]}"} "$new/rolls" >"$table" || {
+fit --each ${each[@]+"${each[@]}"} "$new/rolls" >"$table" || {
   status=$?
   [ "$(grep -vc '^#' "$table")" = "$runs" ] || exit $status
   [ $status = 1 ] || say 'some runs have no law'
@@ -68,7 +73,7 @@ fit --each $each ${accepted[@]+"${accepted[@]}"} "$new/rolls" >"$table" || {
 law=$table
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt
-  fitpower --digits 6 ${check:+--check} ${accepted[@]+"${accepted[@]}"} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
+  fitpower --digits 6 ${checks[@]+"${checks[@]}"} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
   [ "$failed$slope" != 10 ] || say 'if the runs rolled in both directions: --slope fit'
 fi
 cat "$law"

@@ -37,9 +37,9 @@ declare -A options=(
   [smooth]="-c D|-M savgol|-w 5|--seconds 0.3|--order 4|--outliers 2|--coast|--rolls|--from 3|--to 4|--equal-times mean|--use t=x|$input"
   [differentiate]="-c x|-M savgol|-w 5|--order 4|--use t=x|$input"
   [shift-from-accel]="--use a=v|$scene|$input"
-  [fitpower]="--min-speed 0.2|--x0 0.1|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--use D=x|$scene|$input"
+  [fitpower]="--min-speed 0.2|--x0 0.1|--law d0+d1*v|--robust|--each|--fix a=1.7e-3|--report|--check|--accept CR.csv|--use D=x|$scene|$input"
   [simulate]="--x0 0.1|--t0 1|--law law|--law row|--law table|--law rows --run two|--memory 1e-3|--damping 0.01|--method rkf45|--rtol 1e-3|--report|--dt 0.1|--until 1.5|--at moments|--columns x,v|--sensor pasco|--seed 5|--rate 20|--resolution 0.01|--noise 0.002|--lost 0.2|$scene|--digits 16|--plain"
-  [energy-ledger]="-a 1e-3|-b 0.1|--law row|--law table|--columns E_trans,F_N,A,Pi_S,W_g|--summary|--check 1e-3|--use v=x|$scene|$input"
+  [energy-ledger]="-a 1e-3|-b 0.1|--law row|--law table|--columns E_trans,F_N,A,Pi_S,W_g|--summary|--check 1e-3|--accept CR.csv|--use v=x|$scene|$input"
 )
 
 # result TOOL OPTION...: what this prints, without run times, and the exit status; `refused`
