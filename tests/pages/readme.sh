@@ -52,5 +52,14 @@ for readme in "$top/README.md" "$top/samples/README.md"; do
   check "$readme"
   if [ "${1:-}" = refresh ]; then cp "$scratch/new" "$readme"; else diff -u "$readme" "$scratch/new" || wrong=1; fi
 done
+# The first command of README.md builds the tools, where nothing is built yet: make says by which commands.
+first=$(sed -n 's/^    \(make setup[^#]*\).*/\1/p' "$top/README.md" | head -n 1)
+mkdir "$scratch/source"
+(cd "$top" && tar -cf - Makefile cmd lib tests samples man) | tar -xf - -C "$scratch/source" || exit 1
+for tool in "$top"/cmd/*.cpp; do
+  name=$(basename "$tool" .cpp)
+  # shellcheck disable=SC2086  # words
+  (cd "$scratch/source" && $first -n) 2>&1 | grep -q -- "-o bin/$name " || { echo "'$first' does not build $name"; wrong=1; }
+done
 [ $examples -ge 5 ] || { echo "only $examples examples found"; exit 1; }
 exit $wrong
