@@ -105,8 +105,8 @@ another := simulate -K 0.7 -R 0.03 -a 1.2e-3 -b 0.1 --v0 -0.6 --memory 1e-3 --se
 paper: all
 	@PATH="$$PWD/bin:$$PATH"; export PATH; mkdir -p build; $(another) >build/another.csv && \
 	{ samples/paper.sh && printf '\nAnother body, whose run.csv is made by: %s\n' '$(another)' && \
-	  samples/paper.sh -K 0.7 -R 0.03 -m 0.9 build/another.csv; } >samples/paper.new && \
-	mv samples/paper.new samples/paper.txt
+	  samples/paper.sh -K 0.7 -R 0.03 -m 0.9 build/another.csv; } >build/paper.txt && \
+	mv build/paper.txt samples
 
 # The raw runs: simulated, so that the answer is known; see samples/README.md.
 sensor := --memory 5e-4 --damping 0.02 --sensor pasco

@@ -38,7 +38,7 @@ TM=$test_mass measured=$anemometer svg=$o
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
   [ -z "$number" ] || is_number "$number" || wrong "$number is not a number"
 done
-# within NAME VALUE LEAST MOST: they show another unit.
+# within NAME VALUE LEAST MOST: refuses a value beyond these, which is probably in another unit.
 within() {
   [ -z "$2" ] || awk "BEGIN { exit !($2 >= $3 && $2 <= $4) }" || wrong "$1 $2: from $3 to $4"
 }

@@ -50,6 +50,7 @@ put() {
   cp -p "$@" "$new"
   mv -f "$new"/* "$to"
   rmdir "$new"
+  new=''
 }
 # What belongs to the source: runs and results of somebody's own stay where they are. A name that
 # fits no pattern here fails tests/install/install.sh.

@@ -29,12 +29,12 @@ std::vector<double> velocities(const Fitted& fit, std::size_t run) {
 struct Jump {
   std::size_t row = 0;
   double by = 0;                                                ///< [s]
-  double length = 0;                                            ///< of the column, in all runs
+  double length = 0;                                            ///< of the column
   double squares() const { return by * by * length * length; }  ///< what it takes from those of f
 };
 
-/// The jump that takes most from the squares of f. Q: what the fit can
-/// follow. The products of the velocity from a row on with others are sums from the last row.
+/// The jump that takes most from the squares of f. Q: what the fit can follow. The products of the
+/// velocity from a row on with other columns are sums that begin at the last row.
 Jump largest_jump(std::span<const double> f, const std::vector<double>& v,
                   const std::vector<std::span<const double>>& Q) {
   constexpr std::size_t beside = 3;  // rows on either side
