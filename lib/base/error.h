@@ -17,6 +17,10 @@ struct Error : std::runtime_error {
 struct CompleteError : Error {
   using Error::Error;
 };
+/// Nobody reads the output any more.
+struct ReaderGone : CompleteError {
+  using CompleteError::CompleteError;
+};
 /// It names the file, and the line where there is one.
 struct InputError : CompleteError {
   using CompleteError::CompleteError;

@@ -247,6 +247,8 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
   name_.erase(0, name_.rfind('/') + 1);
   // A write beyond the limit of the file size then fails, which flush() reports.
   std::signal(SIGXFSZ, SIG_IGN);
+  // A reader that has gone ends the tool by SIGPIPE, as usual, but after the lines that wait.
+  const bool ends_by_pipe = std::signal(SIGPIPE, SIG_IGN) == SIG_DFL;
   std::set_new_handler(note_memory_has_run_out);
   try {
     error_line_ = error_line(name_);
@@ -258,6 +260,14 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     standard_input_taken_ = take_scene();
     doubt_body();
     return finish(work());
+  } catch (const ReaderGone& error) {
+    if (!ends_by_pipe) {
+      say(error.what());
+    } else {
+      say("");
+      std::signal(SIGPIPE, SIG_DFL);
+      std::raise(SIGPIPE);
+    }
   } catch (const Error& error) {
     // What was odd in the rows may be why no roll fits them; message_of() says what was assumed.
     if (!readers_.empty() && dynamic_cast<const MotionError*>(&error))

@@ -83,6 +83,7 @@ void Output::flush() {
   whole_ = 0;
   drop_line();
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (reason == EPIPE) fail<ReaderGone>("standard output: {}", std::strerror(reason));
   if (reason != 0) fail<CompleteError>("standard output: {}", std::strerror(reason));
 }
 

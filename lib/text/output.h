@@ -63,7 +63,8 @@ class Output {
   void header(const std::string& line);
   /// Writes the line `## run NAME` that is among these, if one is.
   void run_among(const std::vector<std::string>& comments);
-  /// Writes the buffer. Throws CompleteError if the system reports an error.
+  /// Writes the buffer. Throws CompleteError if the system reports an error: ReaderGone if the
+  /// output is a pipe that nobody reads, where SIGPIPE is ignored.
   void flush();
   /// Removes the current line and writes this one as the last of the output, if there has been any
   /// output and the system accepts it. Never throws.
