@@ -138,10 +138,14 @@ struct Task {
             name);
     if (foretells && !std::isnan(law_of_file.steepness))
       fail("sigma_x and sigma_v do not have the uncertainty of the steepness of the row");
-    if (roll.v0 < 0 && roll.body.road) roll.body.road = roll.body.road->mirrored();
-    if (roll.v0 < 0)
-      way = -1, roll.v0 = -roll.v0, roll.x0 = -roll.x0, roll.body.slope *= way,
+    if (roll.v0 < 0) {
+      way = -1;
+      roll.v0 *= way;
+      roll.x0 *= way;
+      roll.body.slope *= way;
       roll.body.wind *= way;
+      if (roll.body.road) roll.body.road = roll.body.road->mirrored();
+    }
     if (!tool.on_command_line("method")) method = best_method(roll);
     if (road && !report) rtol = finest;
   }
@@ -299,9 +303,11 @@ int main(int argc, char** argv) {
   Tool tool("simulate", "Roll a body on a mat under a law D(v).");
   Task task;
   SonarOptions sonar;
-  double dt = 0.01, until = not_given;
+  double dt = 0.01;
+  double until = not_given;
   std::size_t seed = 1;
-  std::string times_file, columns = "t,x,v,a,D";
+  std::string times_file;
+  std::string columns = "t,x,v,a,D";
   bool sensor = false;
   add_options(tool, task);
   tool.number("--dt", dt, positive, "time between rows [s] (0.01)");

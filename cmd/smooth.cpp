@@ -161,7 +161,8 @@ int main(int argc, char** argv) {
     require_motion(select, name);
     RowPipe pipe(in, tool.out, history(name, in.equal_times(), select, options));
     pipe.replace(y);
-    double first = INFINITY, last = -INFINITY;
+    double first = INFINITY;
+    double last = -INFINITY;
     pipe.say_why_none([&] {
       return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
     });

@@ -154,7 +154,9 @@ class ChebyshevPanels {
       panel_ = {t, last, f_};
       if (panel_.converges(2e-15, 1e-13)) return true;
     }
-    size_ = least, direct_ = least, panel_ = {};
+    size_ = least;
+    direct_ = least;
+    panel_ = {};
     return false;
   }
 

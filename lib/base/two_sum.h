@@ -19,7 +19,8 @@ struct TwoSum {
 };
 
 constexpr TwoSum two_sum(double a, double b) {
-  const double sum = a + b, of_b = sum - a;
+  const double sum = a + b;
+  const double of_b = sum - a;
   return {sum, (a - (sum - of_b)) + (b - of_b)};
 }
 

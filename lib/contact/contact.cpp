@@ -68,7 +68,8 @@ double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
   // s^2 may overflow, which needs a K close to 0.
   if (K * std::abs(s) >= cos || std::abs(s) > 1e100) return std::copysign(c.R, s);
   // Squared, K s - cos D/R = A (sin - s) is quadratic in D/R, and A >= 0 chooses its root.
-  const double q = s - sin, h2 = cos * cos + q * q;
+  const double q = s - sin;
+  const double h2 = cos * cos + q * q;
   const double d = (K * s * cos + q * std::sqrt(cos * cos + (q - K * s) * (q + K * s))) / h2;
   return c.R * std::clamp(d, -1.0, 1.0);
 }

@@ -39,8 +39,10 @@ TableLaw::TableLaw(std::vector<double> v, std::vector<double> D) {
   };
   // The coefficients are kept here: gsl_interp_eval in their place made rolls measurably slower.
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double h = v_[i + 1] - v_[i], s = (D_[i + 1] - D_[i]) / h, begin = slope_at(i),
-                 end = slope_at(i + 1);
+    const double h = v_[i + 1] - v_[i];
+    const double s = (D_[i + 1] - D_[i]) / h;
+    const double begin = slope_at(i);
+    const double end = slope_at(i + 1);
     c1_.push_back(begin);
     c2_.push_back((3 * s - 2 * begin - end) / h);
     c3_.push_back((begin + end - 2 * s) / (h * h));
@@ -52,7 +54,10 @@ Shift TableLaw::at(double v) const {
   if (v > v_.back()) return {D_.back() + c1_.back() * (v - v_.back()), v * c1_.back()};
   const auto above = std::upper_bound(v_.begin() + 1, v_.end() - 1, v);
   const auto i = static_cast<std::size_t>(above - v_.begin()) - 1;
-  const double s = v - v_[i], c1 = c1_[i], c2 = c2_[i], c3 = c3_[i];
+  const double s = v - v_[i];
+  const double c1 = c1_[i];
+  const double c2 = c2_[i];
+  const double c3 = c3_[i];
   const auto [least, most] = std::minmax(D_[i], D_[i + 1]);  // rounding may lead beyond them
   return {std::clamp(D_[i] + s * (c1 + s * (c2 + s * c3)), least, most),
           v * (c1 + s * (2 * c2 + 3 * s * c3))};
@@ -75,7 +80,8 @@ Shift powers(const double* c, double v, double* by_c) {
     double x = 1;
     for (int i = 0; i < power; ++i) x *= v;
     *by_c++ = x;
-    s.D += *c * x, s.by_log_v += power * *c++ * x;
+    s.D += *c * x;
+    s.by_log_v += power * *c++ * x;
   };
   (add(n), ...);
   return s;
@@ -84,10 +90,12 @@ Shift powers(const double* c, double v, double* by_c) {
 /// d0 + a v^b as h + s (v^b - 1)/b (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where b is
 /// small, d0 and a are large and nearly cancel, while h, s and b stay what they are.
 Shift constant_and_power(const double* c, double v, double* by_c) {
-  const double n = c[2], log = std::log(v), x = n * log,
-               B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n,
-               B_n = std::abs(x) < 1e-3 ? log * log * (0.5 + x / 3 + x * x / 8)
-                                        : (log * std::exp(x) - B) / n;
+  const double n = c[2];
+  const double log = std::log(v);
+  const double x = n * log;
+  const double B = std::abs(x) < 1e-5 ? log * (1 + x / 2) : std::expm1(x) / n;
+  const double B_n =
+      std::abs(x) < 1e-3 ? log * log * (0.5 + x / 3 + x * x / 8) : (log * std::exp(x) - B) / n;
   by_c[0] = 1;
   by_c[1] = B;
   by_c[2] = c[1] * B_n;
@@ -95,18 +103,25 @@ Shift constant_and_power(const double* c, double v, double* by_c) {
 }
 
 void written_constant_and_power(const double* c, double* d, double* by_c) {
-  const double h = c[0], s = c[1], n = c[2];
-  d[0] = h - s / n, d[1] = s / n, d[2] = n;
+  const double h = c[0];
+  const double s = c[1];
+  const double n = c[2];
+  d[0] = h - s / n;
+  d[1] = s / n;
+  d[2] = n;
   const double J[]{1, -1 / n, s / (n * n), 0, 1 / n, -s / (n * n), 0, 0, 1};
   std::copy(std::begin(J), std::end(J), by_c);
 }
 
 void taken_constant_and_power(const double* d, double* c) {
-  c[0] = d[0] + d[1], c[1] = d[1] * d[2], c[2] = d[2];
+  c[0] = d[0] + d[1];
+  c[1] = d[1] * d[2];
+  c[2] = d[2];
 }
 
 Shift peak(const double* c, double v, double* by_c) {
-  const double w = c[2], below = v * v + w * w;
+  const double w = c[2];
+  const double below = v * v + w * w;
   by_c[0] = 1;
   by_c[1] = 2 * v * w / below;
   by_c[2] = c[1] * 2 * v * (v * v - w * w) / (below * below);
@@ -116,7 +131,9 @@ Shift peak(const double* c, double v, double* by_c) {
 /// The same curve has p w = (-p)(-w): the formula is written with w > 0.
 void written_peak(const double* c, double* d, double* by_c) {
   const double sign = c[2] < 0 ? -1 : 1;
-  d[0] = c[0], d[1] = sign * c[1], d[2] = sign * c[2];
+  d[0] = c[0];
+  d[1] = sign * c[1];
+  d[2] = sign * c[2];
   const double J[]{1, 0, 0, 0, sign, 0, 0, 0, sign};
   std::copy(std::begin(J), std::end(J), by_c);
 }

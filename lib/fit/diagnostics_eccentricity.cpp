@@ -76,7 +76,8 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, dou
   const double reduction = all.reduction(own);
   const double variance = (squares - reduction) / left;
   std::vector<double> gradient(q);  // of e
-  gradient[own] = by_cos / e, gradient[own + 1] = by_sin / e;
+  gradient[own] = by_cos / e;
+  gradient[own + 1] = by_sin / e;
   all.solve_transposed(0, gradient);
   return {run, gsl_cdf_fdist_Q(reduction / variance / 2, 2, left), e,
           std::sqrt(variance * dot(gradient, gradient)), std::atan2(by_sin, by_cos)};

@@ -120,11 +120,13 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
     fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
   const Fitted power = fit_power(route, runs, options);
   Fitted found = fit_beside(power, *options.law);
-  if (was_found(found)) return found;
-  if (found.parameters().scene() == 0)
-    fail<MotionError>("the rows do not determine D = {}", options.law->formula);
-  fail<OneWay>("the rows do not determine D = {} and the {}", options.law->formula,
-               power.scene.empty() ? "wind" : "slope of the mat");
+  const char* const formula = options.law->formula;
+  if (!was_found(found) && found.parameters().scene() == 0)
+    fail<MotionError>("the rows do not determine D = {}", formula);
+  if (!was_found(found))
+    fail<OneWay>("the rows do not determine D = {} and the {}", formula,
+                 power.scene.empty() ? "wind" : "slope of the mat");
+  return found;
 }
 
 }  // namespace rolling

@@ -162,10 +162,12 @@ std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std:
 
 Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   double sum = 0;
-  double n = 0;
-  for (const ObservedRun& run : runs)
-    for (const double v : run.t) sum += std::log(v), ++n;
-  return {options, std::exp(sum / n)};
+  std::size_t n = 0;
+  for (const ObservedRun& run : runs) {
+    for (const double v : run.t) sum += std::log(v);
+    n += run.t.size();
+  }
+  return {options, std::exp(sum / static_cast<double>(n))};
 }
 
 Fitted fit_shift(const std::vector<Run>& all, const FitOptions& options) {

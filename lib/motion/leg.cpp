@@ -59,7 +59,8 @@ double integral_of_power(double m, double r, double e) {
 double integral_of_log(double m, double r, double e) {
   const double y = m * r;
   if (std::abs(y) > 0.3) return (1 - e - y * e) / (m * m);
-  double sum = 0, term = 0.5;  // (-y)^k / (k + 2)!
+  double sum = 0;
+  double term = 0.5;  // (-y)^k / (k + 2)!
   for (int k = 0; k < 12; ++k) {
     sum += (k + 1) * term;
     term *= -y / (k + 3);
@@ -73,11 +74,16 @@ Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
     : body_(body), geometry_(geometry), law_(law.in_wind(body.wind)), v0_(v0),
       incline_(incline(body)), way_(1) {
   if (v0 == 0) {  // a leg of no length, from which nothing moves the end
-    end_ = End::stop, stop_ = 0, q0_ = INFINITY;
+    end_ = End::stop;
+    stop_ = 0;
+    q0_ = INFINITY;
     return;
   }
   Rate start = rate(v0);
-  if (start.q < 0) way_ = -1, start = rate(v0);
+  if (start.q < 0) {
+    way_ = -1;
+    start = rate(v0);
+  }
   q0_ = std::abs(start.q);
   if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
   if (q0_ == 0 || start.balanced() || above_last_speed(v0, start) != 0) end_ = End::constant_speed;
@@ -86,16 +92,22 @@ Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
   power_ = power->b;
   for (std::size_t j = 0; j < derivatives(); ++j) q_c_[j] = start.q_c[j] / start.q;
   sums_ = closed_sums(-std::log(slowest), slowest);
-  if (power->b < 1) end_ = End::stop, stop_ = sums_[0] = v0_ / q0_ / (1 - power->b);
+  if (power->b < 1) {
+    end_ = End::stop;
+    stop_ = v0_ / q0_ / (1 - power->b);
+    sums_[0] = stop_;
+  }
 }
 
 /// The sums up to r, with u/v0 = e^-r = E there.
 Leg::Sums Leg::closed_sums(double r, double E) const {
-  const double b = *power_, unit = v0_ / q0_;
+  const double b = *power_;
+  const double unit = v0_ / q0_;
   const double w = std::exp((b - 1) * r);  // part of t that is left until a stop
   Sums sums{};
   for (const int way : {0, 1}) {  // the second time the integrand has another factor u/v0
-    const double m = 1 - b + way, e = way ? w * E : w;
+    const double m = 1 - b + way;
+    const double e = way ? w * E : w;
     double* const c = &sums[2 + static_cast<std::size_t>(way) * most];
     const double all = unit * integral_of_power(m, r, e);
     sums[static_cast<std::size_t>(way)] = all;
@@ -108,8 +120,10 @@ Leg::Sums Leg::closed_sums(double r, double E) const {
 
 /// The state at t: t = v0/q0 (1 - w)/s with s = 1 - b and w = (u/v0)^s.
 Leg::Point Leg::closed_point(double t) const {
-  const double s = 1 - *power_, y = q0_ / v0_ * t,
-               r = s == 0 ? y : -std::log1p(std::max(-s * y, -1.0)) / s, E = std::exp(-r);
+  const double s = 1 - *power_;
+  const double y = q0_ / v0_ * t;
+  const double r = s == 0 ? y : -std::log1p(std::max(-s * y, -1.0)) / s;
+  const double E = std::exp(-r);
   if (E == 0) return point(sums_, 0, 0);
   return point(closed_sums(r, E), v0_ * E, q0_ * E / (1 - s * y));
 }
@@ -124,7 +138,9 @@ Leg::Rate Leg::rate(double u) const {
   const bool at_radius = exact && D >= R && (u < v0_ || D > R);
   if (at_radius) {
     if (u >= v0_) check_shift(body_, D);
-    D = R, D_by_log_u = 0, r.q_c = {};
+    D = R;
+    D_by_log_u = 0;
+    r.q_c = {};
   }
   const Acceleration now = accelerate(body_, geometry_, D, incline_);
   r.q = -way_ * now.a;
@@ -162,17 +178,20 @@ double Leg::next_break() const {
 /// it might be.
 std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
   Panel p{r_, width, to_radius, sums_, {}, 0, 0};
-  double noise = 1, largest = 0;
+  double noise = 1;
+  double largest = 0;
   bool positive = true;
   const Series rates(0, width, [&](double z) {
     Sums f{};
-    const double u = speed(r_ + p.r_of(z)), E = u / v0_;
+    const double u = speed(r_ + p.r_of(z));
+    const double E = u / v0_;
     const Rate at = rate(u);
     // A rounding of r is one of ln u, which a steep law makes larger.
     if (!to_radius) noise = std::max(noise, at.noise + at.steepness * (1 + r_));
     positive &= at.q > 0;
     const double dt = u / at.q * (to_radius ? 2 * (1 - z / width) : 1);
-    f[0] = dt, f[1] = E * dt;
+    f[0] = dt;
+    f[1] = E * dt;
     for (std::size_t j = 0; j < derivatives(); ++j) {
       f[2 + j] = dt * at.q_c[j] / at.q;
       f[2 + most + j] = E * f[2 + j];
@@ -206,8 +225,10 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
 /// A last speed that is negligible counts as rest.
 void Leg::end_at_last_speed() {
   end_ = End::constant_speed;
-  if (way_ > 0 && speed(r_) < negligible * v0_)
-    end_ = End::stop, stop_ = sums_[0], rest_ = speed(r_);
+  if (way_ < 0 || speed(r_) >= negligible * v0_) return;
+  end_ = End::stop;
+  stop_ = sums_[0];
+  rest_ = speed(r_);
 }
 
 void Leg::add_panel() {
@@ -221,7 +242,7 @@ void Leg::add_panel() {
     const bool deepens = geometry_ == Geometry::exact && radius_time_ == INFINITY && !below(to);
     if (deepens) to = last_where(r_, to, below);
     if (deepens && to - r_ <= narrowest * (1 + r_)) {
-      radius_time_ = sums_[0], radius_speed_ = speed(r_);
+      reach_radius();
       continue;
     }
     if (to - r_ <= narrowest * (1 + r_) && rate(speed(to)).q <= 0) return end_at_last_speed();
@@ -229,7 +250,7 @@ void Leg::add_panel() {
     if (converges) {
       r_ = to;
       width_ = (to < limit || deepens ? to - panels_.back().r : width) * std::max(factor, 0.2);
-      if (deepens) radius_time_ = sums_[0], radius_speed_ = speed(r_);
+      if (deepens) reach_radius();
       break;
     }
     const double least = narrowest * (1 + r_);
@@ -258,7 +279,10 @@ void Leg::reach(double t) {
 
 Leg::Point Leg::point(const Sums& sum, double v, double q) const {
   Point p{.v = v, .x = v0_ * sum[1], .a = -way_ * q, .v_v0 = 1};
-  if (q0_ > 0) p.v_v0 = q / q0_, p.x_v0 = std::abs(v0_ - v) / q0_;
+  if (q0_ > 0) {
+    p.v_v0 = q / q0_;
+    p.x_v0 = std::abs(v0_ - v) / q0_;
+  }
   for (std::size_t j = 0; j < derivatives(); ++j) {
     p.v_c[j] = -way_ * q * sum[2 + j];
     p.x_c[j] = v * sum[2 + j] - v0_ * sum[2 + most + j];
@@ -282,9 +306,12 @@ Leg::Point Leg::beyond_panels(double since) const {
   Point p = point(sums_, v, now.q);
   const Rate last = rate(v - above);
   // At an unstable balance the derivatives grow without bound, but not beyond a double.
-  const double k = way_ * last.q_v, s = k < 0 ? std::min(since, fastest / -k) : since,
-               fade = std::exp(-k * s), once = integral_of_power(k, s, fade),
-               of_log = integral_of_log(k, s, fade), twice = s * once - of_log;
+  const double k = way_ * last.q_v;
+  const double s = k < 0 ? std::min(since, fastest / -k) : since;
+  const double fade = std::exp(-k * s);
+  const double once = integral_of_power(k, s, fade);
+  const double of_log = integral_of_log(k, s, fade);
+  const double twice = s * once - of_log;
   p.v = v - above * (1 - fade);
   p.x += (v - above) * since + above * once;
   p.a *= fade;
@@ -317,8 +344,9 @@ Leg::Point Leg::at(double t) {
                        [](double time, const Panel& p) { return time < p.before[0]; });
   const Panel& p = *(after - 1);
   // The starting point assumes that the time per r is an exponential function over the panel.
-  const double since = t - p.before[0], part = p.decay * since / p.begin,
-               start = std::abs(part) < 1e-8 ? since / p.begin : -std::log1p(-part) / p.decay;
+  const double since = t - p.before[0];
+  const double part = p.decay * since / p.begin;
+  const double start = std::abs(part) < 1e-8 ? since / p.begin : -std::log1p(-part) / p.decay;
   const double z = increasing_root(0, p.width, start >= 0 && start <= p.width ? start : p.width / 2,
                                    [&](double at) {
     const auto [value, per_z] = p.sums.value_and_slope(0, at);

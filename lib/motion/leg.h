@@ -102,6 +102,10 @@ class Leg {
   std::size_t derivatives() const { return law_.size() + 1 + law_.has_drag(); }
   double next_break() const;
   void end_at_last_speed();
+  void reach_radius() {  ///< where the panels end
+    radius_time_ = sums_[0];
+    radius_speed_ = speed(r_);
+  }
   void add_panel();
   std::pair<bool, double> try_panel(double width, bool to_radius);
   Sums closed_sums(double r, double E) const;

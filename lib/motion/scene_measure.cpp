@@ -38,9 +38,11 @@ Measured measure(const std::function<std::unique_ptr<Motion>()>& start, const Re
     result.evaluations = motion->evaluations();
     if (std::isfinite(right.stop) && right.stop > 0)
       result.stop_error = std::abs(motion->stop_time() / right.stop - 1);
-    const std::clock_t begin = std::clock(), least = CLOCKS_PER_SEC / 50;
+    const std::clock_t begin = std::clock();
+    const std::clock_t least = CLOCKS_PER_SEC / 50;
     std::clock_t taken = 0;
-    double samples = 0, sum = 0;
+    double samples = 0;
+    double sum = 0;
     do {
       const auto timed = start();
       for (const double t : right.times) {

@@ -82,21 +82,28 @@ bool Integrator::advance(double t, unsigned long& steps, const Event& event) {
 /// integrates anew from the beginning of the step, so its state is as accurate as any other.
 void Integrator::locate(double t_before, const std::vector<double>& y_before, const Event& event,
                         unsigned long& steps) {
-  double lo = t_before, f_lo = event(y_before), hi = t_, f_hi = event(y_);
-  const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi), h = h_;
+  double lo = t_before;
+  double f_lo = event(y_before);
+  double hi = t_;
+  double f_hi = event(y_);
+  const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(hi);
+  const double h = h_;
   for (int i = 0, side = 0; i < 100 && hi - lo > rounding; ++i) {
-    const double last = t_, t = std::clamp(hi - f_hi * (hi - lo) / (f_hi - f_lo), lo, hi);
+    const double last = t_;
+    const double t = std::clamp(hi - f_hi * (hi - lo) / (f_hi - f_lo), lo, hi);
     restart(t_before, y_before);
     h_ = std::min(h, t - t_before);
     while (t_ < t) step(t, steps);
     const double f = event(y_);
     if (f == 0 || std::abs(t - last) <= rounding) break;
     if ((f < 0) == (f_lo < 0)) {
-      lo = t, f_lo = f;
+      lo = t;
+      f_lo = f;
       if (side == -1) f_hi /= 2;
       side = -1;
     } else {
-      hi = t, f_hi = f;
+      hi = t;
+      f_hi = f;
       if (side == 1) f_lo /= 2;
       side = 1;
     }
@@ -105,7 +112,8 @@ void Integrator::locate(double t_before, const std::vector<double>& y_before, co
 }
 
 void Integrator::restart(double t, std::vector<double> y) {
-  t_ = t, y_ = std::move(y);
+  t_ = t;
+  y_ = std::move(y);
   gsl_odeiv2_evolve_reset(driver_->e);
   gsl_odeiv2_step_reset(driver_->s);
 }

@@ -65,7 +65,8 @@ struct Neighbours {
   /// Through all but three, or fewer if there are hardly more.
   Polynomial<3> best_parabola() const {
     const std::size_t all = size - std::min<std::size_t>(size > 4 ? size - 4 : 0, 3);
-    Polynomial<3> best, none;
+    Polynomial<3> best;
+    Polynomial<3> none;
     const auto without = [&](auto& self, const Polynomial<3>& fit, std::size_t i) -> void {
       if (best.size() > 0 && fit.rss() >= best.rss()) return;
       if (fit.size() == all) return void(best = fit);

@@ -53,7 +53,9 @@ class Polynomial {
   Estimate derivative(std::size_t order, double u, std::size_t size = P) const {
     if (size_ < size) return {0, INFINITY};
     std::array<double, P> w{};  // R^T w = d/du^order (1, u, u^2, ...)
-    double value = 0, square = 0, power = 1;
+    double value = 0;
+    double square = 0;
+    double power = 1;
     for (std::size_t k = 0; k < size; ++k) {
       if (k >= order) {
         w[k] = power;

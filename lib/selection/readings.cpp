@@ -108,13 +108,15 @@ double noise_of(std::span<const Sample> samples, bool positions, double step) {
   for (const auto& [size, typical] :
        {std::pair<std::size_t, double>{4, 0.6745}, {9, 0.94}, {25, 0.98}}) {
     std::vector<std::pair<double, double>> found;  // speed, scatter
-    std::vector<double> speeds, scatter, all;
+    std::vector<double> speeds;
+    std::vector<double> scatter;
+    std::vector<double> all;
     for (std::size_t i = 0; i + size <= samples.size(); ++i) {
       const auto near = samples.subspan(i, size);
       Polynomial<3> fit;
       for (const Sample& s : near) fit.add(s.t - near[0].t, s.y);
-      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3)),
-                   moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
+      const double own = std::sqrt(fit.rss() / static_cast<double>(size - 3));
+      const double moved = std::abs(positions ? near.back().y - near[0].y : near[size / 2].y);
       all.push_back(own);
       if (own > 0.12 * moved) continue;  // a jump or rest
       const bool coarse = positions && moved < 0.99 * step * static_cast<double>(size - 1);
@@ -222,13 +224,16 @@ bool are_held(std::span<const double> readings) {
   for (std::size_t i = 1; i < readings.size(); ++i)
     if (step(i) > rounding) steps.push_back(step(i));
   if (steps.empty() || 4 * steps.size() >= 3 * readings.size()) return false;
-  const double low = nth_smallest(steps, steps.size() / 4), place = grid_of(readings) + rounding;
+  const double low = nth_smallest(steps, steps.size() / 4);
+  const double place = grid_of(readings) + rounding;
   const auto multiples = std::ranges::count_if(steps, [&](double of) {
     return std::abs(of - std::round(of / low) * low) <= std::max(0.02 * low, place);
   });
   const bool on_grid = 5 * static_cast<std::size_t>(multiples) >= 3 * steps.size();
   const double unit = on_grid ? low : std::min(low, 8 * place);
-  std::size_t waiting = 0, held = 0, stretches = 0;  // held between two jumps
+  std::size_t waiting = 0;
+  std::size_t held = 0;
+  std::size_t stretches = 0;  // held between two jumps
   bool after_jump = false;
   for (std::size_t i = 1; i < readings.size(); ++i) {
     if (step(i) <= rounding) {

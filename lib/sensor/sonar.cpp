@@ -30,7 +30,8 @@ double rounded(double x, double resolution) {
 void sonar_run(Motion& motion, const SonarOptions& o,
                const std::function<void(const SonarSample&)>& write) {
   motion.seek(0);
-  const double v0 = motion.velocity(), x0 = motion.position();
+  const double v0 = motion.velocity();
+  const double x0 = motion.position();
   const double roll = std::isinf(o.until) ? motion.stop_time() + o.rest_after : o.until;
   const double release = o.rest_before + o.push;
   const double rows = std::floor((release + roll) * o.rate * (1 + 1e-12)) + 1;
@@ -66,7 +67,10 @@ void sonar_run(Motion& motion, const SonarOptions& o,
     }
     if (i < 2) continue;
     if (i >= 4 && i < n) {
-      const auto &b2 = nth(i - 4).x, &b1 = nth(i - 3).x, &f1 = nth(i - 1).x, &f2 = nth(i).x;
+      const auto& b2 = nth(i - 4).x;
+      const auto& b1 = nth(i - 3).x;
+      const auto& f1 = nth(i - 1).x;
+      const auto& f2 = nth(i).x;
       if (b2 && b1 && f1 && f2)
         nth(i - 2).v =
             rounded((*f1 + *f2 - *b1 - *b2) * o.rate / 6, o.resolution / 10) + 0.0;  // no -0

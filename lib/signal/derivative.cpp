@@ -27,7 +27,8 @@ double CentralDerivative::value(const Windows& window) {
 // the weight multiplies the rise before the division.
 double VernierDerivative::value(const Windows& window) {
   require_slope(window.size());
-  const std::size_t i = window.at(), last = window.end() - 1;
+  const std::size_t i = window.at();
+  const std::size_t last = window.end() - 1;
   const auto slope = [&](std::size_t k, double weight) {
     const Sample& a = window.sample(std::max(i, window.begin() + k) - k);
     const Sample& b = window.sample(std::min(i + k, last));
@@ -37,7 +38,9 @@ double VernierDerivative::value(const Windows& window) {
 }
 
 double PascoDerivative::value(const Windows& window) {
-  const std::size_t i = window.at(), before = i - window.begin(), after = window.end() - 1 - i;
+  const std::size_t i = window.at();
+  const std::size_t before = i - window.begin();
+  const std::size_t after = window.end() - 1 - i;
   if (before == 0 || after == 0) return CentralDerivative::value(window);
   const auto rise = [&](std::size_t k) {
     const Sample& a = window.sample(i - k);

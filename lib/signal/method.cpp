@@ -65,7 +65,8 @@ std::optional<SignalOptions> signal_options(std::span<const SignalMethod> method
                                             std::string_view words) {
   std::istringstream in{std::string(words)};
   in.imbue(std::locale::classic());
-  std::string name, key;
+  std::string name;
+  std::string key;
   in >> name;
   const auto method = std::find_if(methods.begin(), methods.end(),
                                    [&](const SignalMethod& m) { return m.name == name; });

@@ -67,7 +67,9 @@ class ExactSum {
       sum = quick_two_sum(sum.hi, sum.lo);
       // The rounding error of the quotient is corrected; the correction is so small that the
       // rounding of 1/n does not matter.
-      const double count = static_cast<double>(n), inverse = 1 / count, quotient = sum.hi * inverse;
+      const double count = static_cast<double>(n);
+      const double inverse = 1 / count;
+      const double quotient = sum.hi * inverse;
       return quotient + (std::fma(-quotient, count, sum.hi) + sum.lo) * inverse;
     }
   };

@@ -24,9 +24,15 @@ LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> sampl
   // The three-term recurrence p(k+1) = (u - alpha) p(k) - beta p(k-1), at the samples, and at u = 0
   // for value and slope.
   Point result{here.y, 0};
-  double at = 1, slope = 0, at_before = 0, slope_before = 0, norm_before = 1;
+  double at = 1;
+  double slope = 0;
+  double at_before = 0;
+  double slope_before = 0;
+  double norm_before = 1;
   for (std::size_t k = 0; k <= std::min(order, n - 1); ++k) {
-    double norm = 0, moment = 0, c = 0;
+    double norm = 0;
+    double moment = 0;
+    double c = 0;
     for (std::size_t j = 0; j < n; ++j) {
       const double square = p_[j] * p_[j];
       norm += square;
@@ -36,7 +42,8 @@ LocalPolynomial::Point LocalPolynomial::operator()(std::span<const Sample> sampl
     c /= norm;
     result.value += c * at;
     result.slope += c * slope / scale;
-    const double alpha = moment / norm, beta = k > 0 ? norm / norm_before : 0;
+    const double alpha = moment / norm;
+    const double beta = k > 0 ? norm / norm_before : 0;
     for (std::size_t j = 0; j < n; ++j) {
       rest_[j] -= c * p_[j];
       before_[j] = (u_[j] - alpha) * p_[j] - beta * before_[j];

@@ -37,10 +37,14 @@ double SplineDerivative::solve(double alpha) {
   }
   // Backward substitution: the solution and the three bands of B^-1 that the trace needs (s01 is
   // the element (j, j+1)); beyond the last row they are 0.
-  double trace = 0, s11 = 0, s12 = 0, s22 = 0;
+  double trace = 0;
+  double s11 = 0;
+  double s12 = 0;
+  double s22 = 0;
   for (std::size_t j = m; j-- > 0;) {
     g_[j + 1] = g_[j + 1] / D_[j] - L1_[j] * g_[j + 2] - L2_[j] * g_[j + 3];
-    const double s01 = -L1_[j] * s11 - L2_[j] * s12, s02 = -L1_[j] * s12 - L2_[j] * s22;
+    const double s01 = -L1_[j] * s11 - L2_[j] * s12;
+    const double s02 = -L1_[j] * s12 - L2_[j] * s22;
     const double s00 = 1 / D_[j] - L1_[j] * s01 - L2_[j] * s02;
     trace += q0_[j] * s00 + 2 * q1_[j] * s01 + 2 * q2_[j] * s02;
     s22 = s11;
@@ -75,7 +79,9 @@ std::span<const double> SplineDerivative::finish() {
   g_.resize(n + 1);
   const auto inverse = [this](std::size_t i) { return i < h_.size() ? 1 / h_[i] : 0; };
   for (std::size_t j = 0; j < m; ++j) {
-    const double a = inverse(j), b = inverse(j + 1), c = inverse(j + 2);
+    const double a = inverse(j);
+    const double b = inverse(j + 1);
+    const double c = inverse(j + 2);
     qy_[j] = difference(j + 1) * b - difference(j) * a;
     q0_[j] = a * a + (a + b) * (a + b) + b * b;
     q1_[j] = -b * (a + 2 * b + c);
@@ -84,7 +90,9 @@ std::span<const double> SplineDerivative::finish() {
 
   // The range of alpha reaches from no effect between neighbours to a straight line over a thousand
   // of them.
-  constexpr double lowest = -6, highest = 12, coarse = 0.5;
+  constexpr double lowest = -6;
+  constexpr double highest = 12;
+  constexpr double coarse = 0.5;
   const auto worth = [this](double exponent) { return -solve(std::pow(10, exponent)); };
   Largest best{lowest, worth(lowest)};
   for (double e = lowest + coarse; e <= highest; e += coarse)

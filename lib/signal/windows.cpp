@@ -45,7 +45,8 @@ bool Windows::near_end() {
     end = std::min(std::max(end, i + width_.least / 2 + 1), count_);
     known &= i + width_.least / 2 < count_ || finished_;
   } else if (ends_ == Ends::shrink) {
-    const std::size_t behind = i - begin, k = std::min(behind, end - 1 - i);
+    const std::size_t behind = i - begin;
+    const std::size_t k = std::min(behind, end - 1 - i);
     known |= k == behind;
     begin = i - k;
     end = i + k + 1;
@@ -66,10 +67,12 @@ Windows::Within Windows::by_count(std::size_t i) const {
 
 Windows::Within Windows::by_time(std::size_t i) {
   constexpr double late = 1.0 / 16;  // of a step; see Width
-  const double half = width_.seconds / 2, newest = sample(count_ - 1).t;
+  const double half = width_.seconds / 2;
+  const double newest = sample(count_ - 1).t;
   double middle = sample(i).t;
   if (ends_ == Ends::stay) middle = std::max(middle, start_ + half);
-  double from = middle - half, to = middle + half;
+  double from = middle - half;
+  double to = middle + half;
   const auto step = [this](std::size_t j) { return sample(j + 1).t - sample(j).t; };
   right_ = std::max(right_, i + 1);
   while (right_ < count_ && sample(right_).t - late * step(right_ - 1) <= to) ++right_;

@@ -61,7 +61,8 @@ void refuse_unclear(const std::vector<Column>& line, bool labelled) {
 Layout Layout::of(const std::vector<Column>& named, Sides sides) {
   const auto labels = labels_of_runs(named);
   const auto line = without_other_labels(named, labels);
-  std::map<std::string, std::size_t> count, seen;  // of a name
+  std::map<std::string, std::size_t> count;
+  std::map<std::string, std::size_t> seen;  // of a name
   for (const Column& column : line) ++count[column.name];
   std::size_t all = 1;
   if (sides == Sides::by_names)

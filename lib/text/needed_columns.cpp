@@ -188,7 +188,9 @@ std::string NeededColumns::list() const {
 /// Says why there is no such column.
 void NeededColumns::refuse(std::string_view name) const {
   const bool is_time = named_ && quantities_.front() == "t";
-  if (as_read_.size() == 1 && !is_time && (name == "t" || name == "v" || name == "x"))
+  if (as_read_.size() == 1 && is_time && name != "t")
+    fail("t is the only column, but {} is needed too", shown(name));
+  if (as_read_.size() == 1 && (name == "t" || name == "v" || name == "x"))
     fail(
         "one column alone, but t is needed too: if a row comes every 0.04 s, "
         "awk '{}{{ print NR * 0.04, $1 }}' adds t{}",

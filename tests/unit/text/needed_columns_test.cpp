@@ -157,7 +157,7 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
         "there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
   // The case of letters matters in short names.
   CHECK(output({"T", "V"}) == "there is no column 't' among T, V; say --use t=COLUMN");
-  CHECK(output({"t"}, {}, {"n"}) == "there is no column 'n' among t");
+  CHECK(output({"t"}, {}, {"n"}) == "t is the only column, but n is needed too");
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {});
   CHECK(refusal([&] { needed.add("v", Kind::needed); }) ==
