@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "base/matrix.h"
 #include "fit/fitted.h"
+#include "fit/routes.h"
 #include "least_squares/minimise.h"
 #include "statistics/levels.h"
 
@@ -65,9 +67,9 @@ double bend(const FewRows& rows, const std::vector<double>& minimum,
 /// another value and all parameters are fitted again.
 class Profile {
  public:
-  /// `sigma` is the standard error of number j.
-  Profile(const Fitted& fit, std::size_t j, double sigma)
-      : fit_(fit), j_(j), best_(fit.numbers()[j]), sigma_(sigma) {
+  /// `sigma` is the standard error of number j, `wall` the minimum_at_wall().
+  Profile(const Fitted& fit, std::size_t j, double sigma, std::optional<Minimum> wall = {})
+      : fit_(fit), j_(j), best_(fit.numbers()[j]), sigma_(sigma), wall_(std::move(wall)) {
     std::vector<double> g = best_.gradient;
     fit.minimum.R.solve_transposed(0, g);
     variance_ = dot(g, g);
@@ -77,13 +79,14 @@ class Profile {
 
   /// A place of the profile.
   struct Visit {
-    double to = 0;        ///< the change of the number that was asked for
-    double change = 0;    ///< of the number
-    double distance = 0;  ///< in standard errors, as the sum of squares shows it; infinite if no
-                          ///< fit was found
+    double to = 0;         ///< the change of the number that was asked for
+    double change = 0;     ///< of the number
+    double distance = 0;   ///< in standard errors, as the sum of squares shows it; infinite if no
+                           ///< fit was found
+    bool at_wall = false;  ///< there is no roll beyond
     Minimum minimum = {};
   };
-  Visit start() const { return {0, 0, 0, fit_.minimum}; }
+  Visit start() const { return {0, 0, 0, false, fit_.minimum}; }
   /// The number at another theta.
   FittedNumber at(const std::vector<double>& theta) const {
     // In three statements: where memory fails in a later part of an aggregate, g++ 12 and 14
@@ -99,22 +102,29 @@ class Profile {
     return from.minimum.R.step_that_changes(at(from.minimum.theta).gradient, change - from.change);
   }
   /// Fits with the number changed by this, as far as it can. The search starts at a place nearby,
-  /// and ahead of it.
+  /// and ahead of it, unless that is behind the wall.
   Visit visit(double to, const Visit& from) const {
     const double change = to * (1 + 1 / (pull * pull));  // as the other rows pull it back
+    const std::vector<double> start = moved(from.minimum.theta, ahead(from, change));
+    if (wall_ && fit_.parameters().law(start).power()->b < 0) {
+      const double last = at(wall_->theta).value - best_.value;
+      if (std::abs(last) < std::abs(to)) return {last, last, distance(wall_->rss), true, *wall_};
+    }
     const System system = held(best_.value + change);
     Visit there{to, to, INFINITY};
-    improve(there.minimum, system, moved(from.minimum.theta, ahead(from, change)));
+    improve(there.minimum, system, start);
     improve(there.minimum, system, from.minimum.theta);
     if (!std::isfinite(there.minimum.rss)) return there;
     there.change = at(there.minimum.theta).value - best_.value;
     const double row = weight() * (there.change - change);
-    const double rise = std::max(there.minimum.rss - row * row - fit_.minimum.rss, 0.0);
-    there.distance = std::sqrt(rise * variance_) / sigma_;
+    there.distance = distance(there.minimum.rss - row * row);
     return there;
   }
 
  private:
+  double distance(double squares) const {
+    return std::sqrt(std::max(squares - fit_.minimum.rss, 0.0) * variance_) / sigma_;
+  }
   static constexpr double pull = 5;
   double weight() const { return pull / std::sqrt(variance_); }
 
@@ -142,6 +152,7 @@ class Profile {
   std::size_t j_;
   FittedNumber best_;
   double sigma_;
+  std::optional<Minimum> wall_;
   double variance_;  // of the number, for residuals of variance one
 };
 
@@ -164,15 +175,16 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
   return false;
 }
 
-/// True if the sum of squares has risen as it should where the number has changed so far.
+/// True if the number can change so far, and the sum of squares has risen as it should.
 bool as_expected(const Profile& profile, const Profile::Visit& at) {
+  if (at.at_wall) return false;
   const double rise = std::pow(at.distance * profile.sigma() / at.change, 2);
   return rise < levels::rise && rise > 1 / levels::rise;
 }
 
 /// The change of the number, in the direction of this first visit, at which the sum of squares has
 /// risen by that of 95 %; infinite if it does not rise so far within ten times the linear interval.
-/// A wall that it does not pass, such as b = 0 of a body that turns, is an end too.
+/// A wall is an end too.
 double end_of_interval(const Profile& profile, Profile::Visit far) {
   constexpr int most = 10;
   const auto is_end = [](const Profile::Visit& at) {
@@ -181,7 +193,7 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
   Profile::Visit near = profile.start();
   const double widest = 10 * normal * profile.sigma();
   for (int i = 0; i < most && !is_end(far); ++i) {
-    if (far.distance < normal && std::abs(far.change) < std::abs(far.to) / 10) return far.change;
+    if (far.distance < normal && far.at_wall) return far.change;
     if (far.distance < normal && std::abs(far.to) > widest) break;
     double to = near.to == 0 ? far.to / 8 : (near.to + far.to) / 2;
     const bool beyond = far.distance > normal;
@@ -215,8 +227,9 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
   }
   if (doubtful.empty()) return found;
   const Fitted fit = of_means(of_all, options);
+  const auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
   for (const std::size_t j : doubtful) {
-    const Profile profile(fit, j, std::sqrt(noise.covariance[j][j]));
+    const Profile profile(fit, j, std::sqrt(noise.covariance[j][j]), wall);
     const double change = normal * profile.sigma();
     Profile::Visit below = profile.visit(-change, profile.start());
     Profile::Visit above = profile.visit(change, profile.start());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "fit/fitted.h"
@@ -50,6 +51,11 @@ Minimum search(const Model&, const std::shared_ptr<const Noise>&,
 /// and its place as such a theta; infinite where the search finds none.
 Minimum with_exponent_held(const Model&, const std::shared_ptr<const Noise>&,
                            std::vector<double> theta, double b);
+
+/// The minimum at the wall of b = 0, if there is one: a body that turns on a slope or on a road
+/// would be held there under a v^b with b < 0. Nothing if the search finds none.
+std::optional<Minimum> minimum_at_wall(const Model&, const std::shared_ptr<const Noise>&,
+                                       const std::vector<double>& theta);
 
 /// Says that the slope of the mat is not determined by runs in one direction; `found` follows.
 [[noreturn]] void refuse_one_way(const std::string& found = "");

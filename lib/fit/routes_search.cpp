@@ -50,8 +50,8 @@ bool ends_at_an_edge(const Minimum& at) {
   return n > p && at.R.reduction() * static_cast<double>(n - p) > 1e-4 * at.rss;
 }
 
-/// A body that turns on a slope would be held there under a v^b with b < 0, so that the sum of
-/// squares has a wall at b = 0. True if b is free and a run goes uphill at theta, or on a road.
+/// True if b is free and a run goes uphill at theta, or on a road: the sum of squares has a wall at
+/// b = 0.
 bool has_wall(const Model& rolls, const std::vector<double>& theta) {
   const Parameters& q = rolls.parameters();
   if (!rolls.is_roll() || &q.form() != &laws().front() || q.fixed(1)) return false;
@@ -71,10 +71,10 @@ Minimum minimise_along_wall(const Model& rolls, const std::shared_ptr<const Nois
   const Parameters& q = rolls.parameters();
   const bool before_wall = std::isfinite(best.rss) && q.law(best.theta).power()->b > 0;
   if (before_wall && !ends_at_an_edge(best)) return best;
-  const Minimum at_wall = with_exponent_held(rolls, noise, best.theta, 0);
-  if (!std::isfinite(at_wall.rss)) return minimise(system, start);
-  improve(best, system, at_wall.theta);
-  return best.rss < at_wall.rss ? best : evaluated(system, at_wall.theta);
+  const auto at_wall = minimum_at_wall(rolls, noise, best.theta);
+  if (!at_wall) return minimise(system, start);
+  improve(best, system, at_wall->theta);
+  return best.rss < at_wall->rss ? best : evaluated(system, at_wall->theta);
 }
 
 /// True if all runs are rolls in one direction, and none turns.
@@ -95,6 +95,15 @@ Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise
   Minimum found{theta};
   improve(found, system_of(rolls.with(q.with(q.first_of_law + 1, b)), noise), theta);
   found.theta.insert(found.theta.begin() + exponent, b);
+  return found;
+}
+
+std::optional<Minimum> minimum_at_wall(const Model& rolls,
+                                       const std::shared_ptr<const Noise>& noise,
+                                       const std::vector<double>& theta) {
+  if (!has_wall(rolls, theta)) return {};
+  Minimum found = with_exponent_held(rolls, noise, theta, 0);
+  if (!std::isfinite(found.rss)) return {};
   return found;
 }
 
