@@ -26,16 +26,21 @@ int main(int argc, char** argv) {
     const auto a = in.need("a");
     RowPipe pipe(in, tool.out, line_of(by));
     pipe.append({"D", "m"});
+    std::size_t rows = 0;
     std::size_t beyond = 0;
     while (pipe.next_run())
       while (pipe.next()) {
         const double D = shift_from_acceleration(body, by.geometry, pipe[a]);
+        ++rows;
         beyond += std::abs(D) > body.R;
         pipe.put(D);
       }
     if (beyond > 0)
-      tool.warn(fmt::format("{} shift{} beyond the radius {} m: the acceleration is noisy", beyond,
-                            beyond == 1 ? " is" : "s are", body.R));
+      tool.warn(fmt::format("D is beyond the radius {} m in {} of {} rows: {}", body.R, beyond,
+                            rows,
+                            2 * beyond > rows ? "the unit of a is probably wrong, which --use "
+                                                "says: 'a=3[cm/s^2]'"
+                                              : "the acceleration is noisy"));
     return 0;
   });
 }

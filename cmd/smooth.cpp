@@ -157,6 +157,7 @@ int main(int argc, char** argv) {
     if (column.empty()) column = default_column(in, t, selects);
     const auto y = in.need(column);
     const std::string name = in.columns()[in.column_of(y)].name;
+    if (in.column_of(y) == in.column_of(t)) fail("t is the time: -c names another column, x or v");
     select.positions = name == "x";
     require_motion(select, name);
     RowPipe pipe(in, tool.out, history(name, in.equal_times(), select, options));

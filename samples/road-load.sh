@@ -31,9 +31,11 @@ options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column...
   --anemometer -o' "$@"
 [ -z "$no_f1" ] || law='d0+d2*v^2'
 [ ${#operands[@]} -gt 0 ] || wrong 'there is no run'
+back_begins=$back
 out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
 TM=$test_mass measured=$anemometer svg=$o
 [ ${#out[@]} -gt 0 ] || wrong 'there is no run'
+[ -z "$back_begins" ] || [ ${#back[@]} -gt 0 ] || wrong '--back needs the files of the way back'
 [ "$m" ] && [ "$rotating" ] || wrong 'say the masses in kg: -m 1500 --rotating 60, or --rotating 0'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
   [ -z "$number" ] || is_number "$number" || wrong "$number is not a number"
@@ -51,8 +53,21 @@ case $standard in
   cfr) pressure=98.21 ;;
   *) wrong "--standard $standard: gtr15 or cfr" ;;
 esac
+! awk "BEGIN { exit !($rotating > 0 && $rotating < $m / 1000) }" ||
+  wrong "--rotating $rotating: the equivalent mass in kg, not its share"
+for option in $chosen; do
+  case $option in
+    -T | -p | --standard | --test-mass | --anemometer)
+      [ "$T" ] && [ "$p" ] || wrong "$option needs -T and -p, both" ;;
+    -o)
+      [ "${svg%.svg}" != "$svg" ] || wrong "-o $svg: the figure is an SVG, FILE.svg"
+      for file in "${operands[@]}"; do
+        [ ! "$svg" -ef "$file" ] || wrong "-o $svg would replace a run"
+      done ;;
+  esac
+done
 [ "$slope" ] || [ ${#back[@]} = 0 ] || slope=fit
-[ "$slope$height" ] || slope=0
+[ "$slope$height" ] || { slope=0 && echo "road-load.sh: runs one way: the road is taken for level" >&2; }
 road=(${height:+--height "$height"} ${x0:+--x0 "$x0"} ${slope:+--slope "$slope"})
 [ "$wind" != fit ] || [ "$measured" = 0 ] || wrong '--wind fit: the wind is corrected by the fit, not by --anemometer'
 make_scratch
@@ -78,7 +93,8 @@ K=$(awk "BEGIN { print $rotating / $m }")
 fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"
 }
-fit "$scratch/runs" >"$scratch/row" || exit 1
+# The check says whether f1 may be left out.
+fit ${no_f1:+--check} "$scratch/runs" >"$scratch/row" || [ -s "$scratch/row" ] || exit 1
 
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,

@@ -94,6 +94,7 @@ bool extend(History& history, const std::string& line, std::span<const std::stri
   const auto column = quantity_named(words[1]);
   const auto made = column && derivative ? derivative_of(*column) : column;
   if (!made) return true;  // of no column that is fitted
+  believe(column != Quantity::t);
   if (derivative) forget(filters, *made);
   filters.push_back(linear(*column, *made, *options, reach(*options, t)));
   // The matrices of wider filters would not fit into memory.

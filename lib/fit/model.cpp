@@ -3,6 +3,7 @@
 
 #include "base/chebyshev.h"
 #include "base/error.h"
+#include "base/grid.h"
 #include "base/median.h"
 #include "contact/road.h"
 
@@ -171,7 +172,8 @@ double way_before_turn(bool position, const std::vector<double>& t,
   const double down = std::min(begin - least, end - least);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
   const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // of a sum
-  const double limit = 0.002 * (greatest - least) + errors * deviation(x);
+  const double step = position ? grid_of(rows) : 0;  // a body at rest may show two readings
+  const double limit = 0.002 * (greatest - least) + 2 * step + errors * deviation(x);
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
 

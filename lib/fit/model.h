@@ -118,7 +118,8 @@ class Parameters {
 };
 
 /// The direction before the furthest place of these positions or speeds, from which the body comes
-/// back; 0 if it does not, or by no more than noise and 0.2 % of its way.
+/// back; 0 if it does not, or by no more than noise, two steps of rounded positions and 0.2 % of
+/// its way.
 double way_before_turn(bool position, const std::vector<double>& t,
                        const std::vector<double>& rows);
 

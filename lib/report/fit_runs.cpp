@@ -214,14 +214,16 @@ void Bodies::give_to(std::vector<Run>& runs) const {
 }
 
 void warn_of_copies(Tool& tool, Route route, const std::vector<Run>& runs) {
-  std::set<std::vector<std::string_view>> different;  // the readings, as their bytes
+  std::set<std::string> different;  // the sizes of all readings, as their bytes
   for (const Run& run : runs) {
-    std::vector<std::string_view> readings;
-    for (const Quantity q : columns_of(route)) {
-      const std::vector<double>& x = run[q];
-      readings.emplace_back(reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double));
-    }
-    if (readings.back().size() >= 10 * sizeof(double) && !different.insert(readings).second)
+    std::string readings;
+    for (const Quantity q : columns_of(route))
+      for (const double x : run[q]) {
+        const double size = std::abs(x);  // a copy may be taken for a run in the other direction
+        readings.append(reinterpret_cast<const char*>(&size), sizeof size);
+      }
+    const std::size_t rows = readings.size() / sizeof(double) / columns_of(route).size();
+    if (rows >= 10 && !different.insert(std::move(readings)).second)
       tool.object(run.name,
                   "its readings are those of an earlier run: leave copies out, for each counts as "
                   "one more roll");

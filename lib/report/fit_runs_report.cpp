@@ -136,21 +136,31 @@ class Remarks {
   }
 
   void geometry() {
-    for (std::size_t i = 0; i < r_.v0.size(); ++i) {
-      const double v0 = r_.v0[i].value;
-      const double D = r_.law(std::abs(v0));
-      const double R = fit_.runs[i].body.R;
-      const bool beyond = D > R;
-      if (!beyond && std::abs(D) >= levels::least_D_over_R * R) continue;
+    // A column whose unit may be wrong, and how --use says another one.
+    std::pair fitted{"x", "x=2[mm]"};
+    if (fit_.route == Route::velocity) fitted = {"v", "v=2[cm/s]"};
+    if (!is_trajectory(fit_.route)) fitted = {"a", "a=3[cm/s^2]"};
+    for (std::size_t i = 0; i < fit_.runs.size(); ++i) {
+      const Run& run = fit_.runs[i];
+      const double v = i < r_.v0.size() ? std::abs(r_.v0[i].value) : fastest(run);
+      const double D = r_.law(v);
+      const double R = contact_of(fit_.route, run, options_).body.R;
+      const bool beyond = R > 0 && D > R;  // D of a table alone has no R
+      if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
       const std::string text = fmt::format(
           "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of t or {} "
-          "is probably wrong, which --use says: 't=1[ms]'",
-          D, v0, beyond ? "beyond" : "less than a ten-thousandth of", R,
-          rolling::name_of(fitted_column(fit_.route)));
-      if (beyond) object(fit_.runs[i].name, text);
-      else tool_.warn(fit_.runs[i].name, text);
+          "is probably wrong, which --use says: 't=1[ms]' or '{}'",
+          D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted.first,
+          fitted.second);
+      if (beyond) object(run.name, text);
+      else tool_.warn(run.name, text);
       break;
     }
+  }
+  static double fastest(const Run& run) {
+    double v = 0;
+    for (const double of_row : run.v) v = std::max(v, std::abs(of_row));
+    return v;
   }
 
   /// A body that comes back on a mat that is taken for level.

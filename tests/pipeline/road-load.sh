@@ -88,11 +88,20 @@ awk -F '\t' '
   $1 == "f0" && (far(150) || $3 > 1) || $1 == "slope" && (far(0.0005) || $3 > 5e-5)' table | grep . && wrong=1
 [ "$(grep -c '^f[02]\|^slope' table)" = 3 ] || complain "not all of them: $(cat table)"
 
-for words in '' 'out1' '-m 1512 out1' '-m 1512 --rotating x out1' '-m 1512 --rotating 1 --standard sae out1' '-m 1512 --rotating 1 nowhere'; do
+on='-m 1512 --rotating 60'
+cp out1 run.svg
+for words in '' 'out1' '-m 1512 out1' '-m 1512 --rotating x out1' "$on --standard sae out1" "$on nowhere" \
+  "$on out1 --back" '-m 1512 --rotating 0.04 out1' "$on -T 20 out1" "$on -p 100 out1" \
+  "$on --test-mass 1500 out1" "$on -o out1 out1" "$on -o run.svg run.svg"; do
   # shellcheck disable=SC2086
   load $words >table && complain "accepted: $words"
   [ ! -s table ] && [ -s said ] || complain "$words: $(cat table said)"
 done
+cmp out1 run.svg || complain 'a run is overwritten'
+load $on out1 --back out1 >/dev/null
+grep -q 'those of an earlier run' said || complain "a run and its copy both ways: $(cat said)"
+load $on out1 >/dev/null
+grep -q 'runs one way: the road is taken for level' said || complain "one way: $(cat said)"
 # Numbers in other units: tonnes, a mass above that of the car, kelvin, pascal, hectopascal; and the limits.
 while read -r refused option limits; do
   # shellcheck disable=SC2086
