@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "base/edit_distance.h"
 #include "base/enumeration.h"
 #include "base/version.h"
 #include "fit/input.h"
@@ -254,6 +256,34 @@ bool Tool::given(double Body::*number) const {
   return false;
 }
 
+namespace {
+
+/// What to do about a word that is no option: the option that is meant, if the word is its
+/// beginning or hardly another one; capital letters and underscores do not count.
+std::string way_to_option(const CLI::App& app, const std::string& word) {
+  const auto plain = [](std::string name) {
+    for (char& c : name) c = c == '_' ? '-' : static_cast<char>(std::tolower(c));
+    return name;
+  };
+  const std::string name = plain(word.substr(0, word.find('=')));
+  std::string meant;
+  std::size_t least = 3;
+  const auto compare = [&](const std::string& option) {
+    const bool is_cut_off = name.size() > 4 && option.starts_with(name);
+    const std::size_t changes = is_cut_off ? 0 : edit_distance(name, plain(option));
+    if (changes >= std::min(least, option.size() > 2 ? option.size() - 2 : 1)) return;
+    least = changes;
+    meant = option;
+  };
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& known : option->get_snames()) compare("-" + known);
+    for (const std::string& known : option->get_lnames()) compare("--" + known);
+  }
+  return meant.empty() ? "see --help" : "do you mean " + meant + "?";
+}
+
+}  // namespace
+
 std::string Tool::parse(int argc, const char* const* argv) {
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   for (std::string& argument : arguments)
@@ -272,8 +302,8 @@ std::string Tool::parse(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     return fmt::format("{} (rolling) {} (GSL {})\n", name_, version(), version_of_gsl());
   } catch (const CLI::ExtrasError&) {
-    fail("no such option or operand: {} (see --help)",
-         shown(without_mark(app_->remaining().front())));
+    const std::string word = without_mark(app_->remaining().front());
+    fail("no such option or operand: {} ({})", shown(word), way_to_option(*app_, word));
   } catch (const CLI::ParseError& error) {
     fail("{} (see --help)", in_our_words(*app_, error.what()));
   }
@@ -325,8 +355,13 @@ bool Tool::has(const std::string& option) const {
 }
 
 void Tool::refuse_misplaced(const std::string& file) const {
+  if (::access(file.c_str(), F_OK) == 0) return;
+  for (const std::string_view dash : {"\u2013", "\u2014", "\u2212"})
+    if (file.starts_with(dash))
+      fail<OptionError>("a dash of a text program stands before '{0}': write -{0}",
+                        shown(file.substr(dash.size())));
   const auto equals = file.find('=');
-  if (equals == std::string::npos || equals == 0 || ::access(file.c_str(), F_OK) == 0) return;
+  if (equals == std::string::npos || equals == 0) return;
   const std::string name = (equals == 1 ? "-" : "--") + file.substr(0, equals);
   if (app_->get_option_no_throw(name))
     fail<OptionError>("'{}' is no file; write {} {}", shown(file), name,
