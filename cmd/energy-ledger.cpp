@@ -263,6 +263,9 @@ int main(int argc, char** argv) {
     if (const auto name = std::ranges::find_if(of_temperature, is_chosen);
         name != std::end(of_temperature) && std::isnan(task.temperature))
       fail("{} needs --temperature", *name);
+    if (task.temperature < 150)
+      tool.warn(fmt::format("--temperature {} K: if that is degrees Celsius, write {}",
+                            task.temperature, task.temperature + 273.15));
     if (is_chosen("sigma_D") && law.file.empty())
       fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass"});

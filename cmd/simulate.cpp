@@ -173,6 +173,18 @@ void check_options(const Tool& tool, const Task& task) {
     fail("--damping goes with --memory");
 }
 
+/// Tells numbers that are hardly meant in these units.
+void tell_doubts(Tool& tool, const Task& task, const SonarOptions& sonar) {
+  const double length = task.roll.bulge.length;
+  if (length > task.roll.body.R)
+    tool.warn(
+        fmt::format("a memory of {} m is longer than the radius: if that is millimetres, write {}",
+                    length, length / 1000));
+  if (sonar.rate < 1)
+    tool.warn(fmt::format("--rate {} is a row every {} s: if a row takes {} s, write --rate {}",
+                          sonar.rate, 1 / sonar.rate, sonar.rate, 1 / sonar.rate));
+}
+
 /// The time where the rows end: `until`, or the stop if that is not given.
 double last_time(const Task& task, Motion& motion, double until) {
   const double t0 = task.t0;
@@ -327,6 +339,7 @@ int main(int argc, char** argv) {
     task.row = chosen(columns, quantities);
     task.complete(tool);
     check_options(tool, task);
+    tell_doubts(tool, task, sonar);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;

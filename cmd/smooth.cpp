@@ -122,6 +122,20 @@ void refuse_pairs(const Tool& tool, const SelectionOptions& select, const Signal
   if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
 }
 
+/// Tells a window that is far longer than a run of so many rows and seconds, or holds one row.
+void tell_window(Tool& tool, const std::string& run, const Width& width, std::size_t rows,
+                 double seconds) {
+  const double n = static_cast<double>(rows);
+  const double step = seconds / (n - 1);
+  const double window =
+      width.seconds > 0 ? width.seconds : static_cast<double>(width.samples) * step;
+  if (window > 2 * (seconds + step))
+    tool.warn(run, fmt::format("the run lasts {:.4g} s, and the window more than twice as long",
+                               seconds));
+  if (width.seconds > 0 && window < step)
+    tool.warn(run, fmt::format("the window holds one row: one comes every {:.4g} s", step));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -173,6 +187,9 @@ int main(int argc, char** argv) {
       auto smoother = make_signal(options);
       std::size_t row = 0;
       std::size_t roll = 0;
+      std::size_t rows = 0;
+      double begin = 0;
+      double end = 0;
       // A roll is a run of its own: its smoothing begins anew.
       const auto begin_roll = [&](double time) {
         const auto& rolls = selection.rolls();
@@ -192,14 +209,18 @@ int main(int argc, char** argv) {
         }
       };
       while (pipe.next()) {
-        first = std::min(first, pipe[t]);
-        last = std::max(last, pipe[t]);
+        end = pipe[t];
+        if (rows++ == 0) begin = end;
+        first = std::min(first, end);
+        last = std::max(last, end);
         if (all) pipe.put(smoother->push(pipe[t], pipe[y]));
         else take(selection.push(pipe[t], pipe[y]));
       }
       take(selection.finish());
       selected.add(selection, in.run_name(), row);
       pipe.put(smoother->finish());
+      if (tool.given("width") || tool.given("seconds"))
+        tell_window(tool, in.run_name(), options.width, rows, end - begin);
     }
     selected.say();
     return 0;
