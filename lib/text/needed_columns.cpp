@@ -284,6 +284,9 @@ void NeededColumns::refuse_unit(const Needed& needed, const Column& meant) const
         "{} is an angle, and {} needs a length: multiply it by R first "
         "(rolling-recipes(7))",
         name, needed.quantity);
+  const auto is_error = [&](const Column& column) { return column.name == "sigma_" + meant.name; };
+  if (std::ranges::any_of(as_read_, is_error))
+    fail("{} has its uncertainty beside it: these are results of a fit, not readings", name);
   if (known && !measured.empty()) {
     const auto unit = read_unit(meant.unit);
     const bool may_be_used = has_use_ && unit && !unit->quantity.empty();

@@ -38,7 +38,7 @@ cp "$figures"/*.gp "${scratch:?}"
 # their names. What the tools say of runs of your own reaches the user.
 prepare() {
   local i name file
-  quiet=''
+  quiet='' route=''
   if [ $own = 0 ]; then
     quiet=1
     for name; do
@@ -62,10 +62,11 @@ prepare() {
     fi
   done
   if [ "$column" != v ] && take x >"$scratch/readings"; then column=x route=position
+  elif [ -z "$column" ] && ! grep -q "no column 'x'" "$scratch/said"; then :  # it says what is wrong
   elif [ "$column" != x ] && take v >"$scratch/readings"; then column=v route=velocity
-  else column=''; fi
+  fi
   cat "$scratch/said" >&2
-  [ "$column" ] || exit 2
+  [ "$route" ] || exit 2
   cd "$scratch"
   if ! grep -q '^## run ' readings; then
     { printf '## run %s\n' "${name//[[:cntrl:]]/?}" && cat readings; } >named
