@@ -218,6 +218,8 @@ void Tool::bodies(std::vector<Body>& bodies, std::string& list,
     const auto take = [=, this, &of, &bodies, &list](const std::string& text) {
       if (may_be_fitted) options->*fitted->is_fitted = text == "fit";
       if (may_be_fitted && text == "fit") return;
+      if (may_be_fitted && text.starts_with('f'))
+        fail("'{}' is no number, and not 'fit'", shown(text));
       const std::vector<Estimate> values = to_numbers(text, of.domain);
       if (bodies.size() == 1) bodies.resize(values.size(), bodies.front());
       if (values.size() > 1) list = "--" + long_name(of.names);

@@ -107,7 +107,7 @@ cmp -s <(fitpower -q -K 0.5 -R 0.04 "$scratch/roll") \
   complain 'fitpower: another default'
 
 # smooth(1): a window of seconds reaches a sixteenth of a step beyond its half.
-says man/smooth.1 'or a sixteenth of a step beyond'
+says man/smooth.1 'and a sixteenth of a step'
 for step in 1.06 1.07; do
   awk -v h="$step" 'BEGIN { print "t v"; print 0, 0; print h, 3; print 2 * h, 9 }' | smooth -q --seconds 2 | sed -n '4p' | cut -f 2
 done | tr '\n' ' ' | grep -qx '4 3 ' || complain 'smooth --seconds: another reach'
@@ -131,7 +131,7 @@ fitpower -q --law d0+d2*v^2 -K 0.04 -R 1 --slope fit "$scratch/way0.001" "$scrat
 
 # fitpower(1): coverage of noise alone, as the table says that `make coverage` writes: of the rows in
 # which few runs are told, loglog aside.
-says man/fitpower.1 '0.92 to 0.97 of the nominal 95 % intervals hold the truth, or there is a warning'
+says man/fitpower.1 '92 to 97 of 100 intervals of 95 % hold the truth, or there is a warning'
 awk '/^(position|velocity|shift),/ && NF > 6 { told = $NF > $(NF - 1) ? $NF : $(NF - 1)
     if (told >= 0.2) next
     for (i = NF - 5; i <= NF - 2; i++) { n++; if ($i < 0.915 || $i > 0.975) { print; bad = 1 } } }
@@ -161,6 +161,6 @@ for more in 0 1; do
 done
 
 # simulate(1): the table of tests/reference.
-says man/simulate.1 'the instants of 113 rolls'
+says man/simulate.1 'with 113 rolls'
 [ "$(tail -n +2 tests/reference/rolls.tsv | cut -f 2-10 | sort -u | wc -l)" -eq 113 ] || complain 'rolls.tsv: not 113 rolls'
 exit $wrong
