@@ -99,6 +99,7 @@ figure:target svg { width: auto; min-width: 44rem; }
 figure:target .back { display: inline-block; padding: .5rem 0; }
 @media (max-width: 36rem) { body { font-size: 1rem; padding: .7rem; }
   figure svg { width: max(100%, calc(.7 * var(--width))); }
+  figure > a { border-inline: 2px dashed #999; }
   th, td { padding-right: .5rem; font-size: .85rem; } }
 @media (prefers-color-scheme: dark) {
   body, figure:target { color: #e6e3dd; background: #16181b; }

@@ -91,7 +91,7 @@ cp README.md "$scratch/README.txt"
 </head>
 <body>
 <h1>$site</h1>
-<p>Begin with the <a href="README.txt">README</a> and the tutorial.</p>
+<p>Begin with the tutorial, <a href="rolling.7.html">rolling(7)</a>. The <a href="README.txt">README</a> is plain text.</p>
 <table>
 END
   [ ! -e "$1/../report.html" ] ||

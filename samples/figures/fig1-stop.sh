@@ -31,7 +31,7 @@ rest=$(columns moving t x | awk -v end="$end" '$1 > end - 1 { sum += $2; n++ } E
 { printf 'The roll backwards: ' && tr '\n' ' ' <back; } | sed 's/+-/±/g; s/, goes/,@goes/; s/; as/;@as/; s/: of/:@of/' | tr @ '\n' >note
 title='Fig. 1, the stop: velocity and position near the stop, with the roll backwards'
 draw 520 740 "remembers = ${#memory}; of_memory = '$of_memory'; stop = $stop; rest = '${rest//$'\n'/ }'" <<'PLOT'
-set multiplot layout 2,1 margins 0.15,0.98,0.16,0.98 spacing 0.1
+set multiplot layout 2,1 margins 0.15,0.98,0.17,0.98 spacing 0.1
 set xrange [-0.52:0.82]; set xzeroaxis lt -1 lw 0.5
 set xlabel 'time after the stop that the law D(v) alone predicts / s'
 after(t) = t - stop
@@ -44,7 +44,7 @@ plot 'raw' using (after($1)):(1e3*sign*$3) with points ls 1 ps 0.6 title name.':
        title 'with a memory of '.of_memory, \
      'law' using (after($1)):(1e3*sign*$3) with lines ls 12 title 'fitted law alone'
 set ylabel 'distance from rest / mm' offset -1, 0; set yrange [-8:2]; set key bottom right
-set label 1 system('cat note') at screen 0.02, screen 0.075 left font ',12'
+set label 1 system('cat note') at screen 0.02, screen 0.06 left font ',12'
 plot 'raw' using (after($1)):(mm($2, 1)) with points ls 1 ps 0.6 title name.': the positions' noenhanced, \
      for [i=1:(remembers > 0)] 'memory' using (after($1)):(mm($2, 3)) with lines ls 1 notitle, \
      'law' using (after($1)):(mm($2, 2)) with lines ls 12 notitle

@@ -60,11 +60,11 @@ columns readings t >moments
 title='Residuals of a fit against time and against velocity'
 above=0
 [ "$count" = 1 ] || above=$((20 * (((count < 16 ? count : 16) + 1) / 2)))
-draw 520 $((600 + 18 * lines + above)) "lines = $lines; unit = '$unit'; by = 0$by; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
-above = count > 1 ? 20*((named + 1)/2) : 0; height = 600.0 + 18*lines + above
+draw 520 $((612 + 18 * lines + above)) "lines = $lines; unit = '$unit'; by = 0$by; rms = 1e3*$(columns fit1 rms); outliers = $(wc -l <outliers)" <<'PLOT'
+above = count > 1 ? 20*((named + 1)/2) : 0; height = 612.0 + 18*lines + above
 below = (18*lines + 10)/height
-set multiplot layout 2,1 margins 0.16,0.955,below + 54/height,1 - (10 + above)/height spacing 0.11
-set label 1 system('cat note') at screen 0.02, screen below - 10/height left font ',12' noenhanced
+set multiplot layout 2,1 margins 0.16,0.955,below + 64/height,1 - (10 + above)/height spacing 0.11
+set label 1 system('cat note') at screen 0.02, screen below - 8/height left font ',12' noenhanced
 file(name, i) = sprintf('%s%d', name, i)
 most = 2.5*rms
 do for [i=1:count] {

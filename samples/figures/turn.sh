@@ -20,11 +20,11 @@ balance
 title='A roll up a slope and back: its velocity and its energies against time'
 draw 520 720 "start = $start; parts = $parts" <<'PLOT'
 set multiplot
-set lmargin at screen 0.16; set rmargin at screen 0.97
+set lmargin at screen 0.17; set rmargin at screen 0.97
 set tmargin at screen 0.98; set bmargin at screen 0.62
-set xlabel 'time t / s'; set ylabel 'velocity v / (m/s)' offset -0.5, 0; set xrange [0:*]; set xzeroaxis lt -1 lw 0.5
+set xlabel 'time t / s'; set ylabel 'velocity v / (m/s)' offset 0.5, 0; set xrange [0:*]; set xzeroaxis lt -1 lw 0.5
 plot 'fitted' using ($1-start):6 with lines lc rgb black lw 1.5 title 'fitted', \
      'measured' using ($1-start):6 every thin('measured', 40) with points pt 4 ps 0.6 lc rgb black title 'measured'
-set tmargin at screen 0.52; set bmargin at screen 0.18
+set tmargin at screen 0.52; set bmargin; set ylabel offset 0.5, 0
 load 'energies.gp'
 PLOT

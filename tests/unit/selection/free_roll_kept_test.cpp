@@ -70,6 +70,24 @@ TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is 
   CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
 }
 
+// Of 40,000 rows means of 40 are searched first; the search among the rows around the roll tells when
+// the hand comes.
+TEST_CASE("free_roll: in a long run, too, a hand is told to a few rows", "[signal]") {
+  const Series e = noise(40000, 7);
+  std::vector<Sample> run;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double t = 1e-3 * static_cast<double>(i);
+    double v = 0;
+    if (t >= 15 && t < 16.511) v = 0.8 - 0.2 * (t - 15);
+    else if (t >= 16.511) v = std::max(0.0, 0.4978 - 5 * (t - 16.511));
+    run.push_back({t, v + 1e-3 * e[i]});
+  }
+  const FreeRoll roll = free_roll(run, false);
+  CAPTURE(roll.kept.from, roll.kept.to, roll.after);
+  CHECK(roll.how == FreeRoll::End::is_ended);
+  CHECK(std::abs(roll.after - 16.511) < 0.004);
+}
+
 TEST_CASE("free_roll: it takes ten rows", "[signal]") {
   std::vector<Sample> run;
   for (int i = 0; i < 10; ++i) run.push_back({0.04 * i, 0.5 - 0.02 * i});
