@@ -216,7 +216,8 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
   }
   value_of_run(task.list, task.masses.size(), 0, runs);
   if (beyond > 0)
-    tool.warn(fmt::format("{} shift{} beyond the radius", beyond, beyond == 1 ? " is" : "s are"));
+    tool.warn(fmt::format("D is beyond the radius in {}{}", counted(beyond, "row"),
+                          task.uses_law ? ": the law gives metres" : ""));
   if (tests_nothing && (task.summary || tool.checks))
     tool.warn(
         "D was computed from the derivative of the same v: the balance compares v with itself "

@@ -357,7 +357,7 @@ std::string disagreement(const Agreement& found, const std::vector<Run>& runs, b
     line += fmt::format(", in D({:.2g} m/s) by {:+.3g} +- {:.1g} %", found.speed,
                         100 * std::expm1(found.log_D.value), 100 * found.log_D.sigma);
   if (found.b.sigma > 0)
-    line += fmt::format(", in b by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
+    line += fmt::format(", in its exponent by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
   if (agree) return line;
   return line + "; the row is their mean, with their scatter in its uncertainties";
 }

@@ -73,8 +73,11 @@ fit --each ${each[@]+"${each[@]}"} "$new/rolls" >"$table" || {
 law=$table
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt
-  fitpower --digits 6 ${checks[@]+"${checks[@]}"} --route fits "$table" >"$law" || { [ $? = 1 ] && failed=1; }
-  [ "$failed$slope" != 10 ] || say 'if the runs rolled in both directions: --slope fit'
+  fitpower --digits 6 ${checks[@]+"${checks[@]}"} --route fits "$table" >"$law" || {
+    [ $? = 1 ] || exit 1
+    failed=1
+    [ "$slope" != 0 ] || say 'if the runs rolled in both directions: --slope fit'
+  }
 fi
 cat "$law"
 if command -v gnuplot >/dev/null; then

@@ -17,7 +17,7 @@ TEST_CASE("fit report: runs that disagree are told with the run that stands out,
                     after = "; the row is their mean, with their scatter in its uncertainties";
   CHECK(disagreement(found, runs, false) == before + after);  // b is fixed
   found.b = {-0.02, 0.003};
-  CHECK(disagreement(found, runs, false) == before + ", in b by -0.02 +- 0.003" + after);
+  CHECK(disagreement(found, runs, false) == before + ", in its exponent by -0.02 +- 0.003" + after);
   found.p = 0.0099;
   CHECK_FALSE(disagreement(found, runs, false).empty());
   // Runs that agree as a whole, from 1 % on: a check alone names one that is off, from 1 % on.
@@ -26,7 +26,7 @@ TEST_CASE("fit report: runs that disagree are told with the run that stands out,
   CHECK(disagreement(found, runs, false).empty());
   CHECK(disagreement(found, runs, true) ==
         "the runs agree as a whole, but one of 3 is off (p = 0.004): run two stands out, in D(0.5 "
-        "m/s) by +10 +- 1 %, in b by -0.02 +- 0.003");
+        "m/s) by +10 +- 1 %, in its exponent by -0.02 +- 0.003");
   found.p_of_run = 0.0099;
   CHECK_FALSE(disagreement(found, runs, true).empty());
   found.p_of_run = 0.0101;
