@@ -56,8 +56,9 @@ FreeRoll free_roll(std::span<const Sample> run, bool positions);
 ///
 /// The free rolls of one body have one law: at the same speed they slow down alike. A stretch is a
 /// roll if its mean deceleration is within a factor of 1.5 of that which the others show at its
-/// speeds. The law is the one that most of the rolling time follows. A hand, a brake, and a body
-/// that is carried back slow down otherwise.
+/// speeds, and no part of it is off by more than twice that and four standard errors. The law is
+/// the one that most of the rolling time follows. A hand, a brake, and a body that is carried back
+/// slow down otherwise.
 std::vector<FreeRoll> free_rolls(std::span<const Sample> run, bool positions);
 
 }  // namespace rolling

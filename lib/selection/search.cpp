@@ -83,7 +83,7 @@ class Search {
 
   /// A speed, and the deceleration at it.
   struct Slowing {
-    double v, deceleration;
+    double v, deceleration, error;
   };
   /// What a roll shows of its law, ordered by the speeds.
   std::vector<Slowing> law_of(const Chain& c) const {
@@ -93,7 +93,7 @@ class Search {
         const Piece& p = pieces_[i];
         const double t = std::lerp(p.from, p.to, part);
         const double v = p.v(t).value;
-        if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v)});
+        if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v), p.a(t).error});
       }
     std::ranges::sort(law, {}, &Slowing::v);
     return law;
@@ -112,8 +112,10 @@ class Search {
     double found = 0;
     double expected = 0;
     for (const Slowing& s : other) {
+      const double alike = at(law, s.v);
+      if (std::abs(s.deceleration - alike) > 4 * s.error + 2 * alike) return false;
       found += s.deceleration;
-      expected += at(law, s.v);
+      expected += alike;
     }
     return found > expected / 1.5 && found < 1.5 * expected;
   }

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "base/error.h"
 #include "unit/catch.h"
+#include "unit/many.h"
 #include "unit/signal/through.h"
 
 using namespace rolling;
@@ -70,8 +72,8 @@ TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is 
   CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
 }
 
-// Of 40,000 rows means of 40 are searched first; the search among the rows around the roll tells when
-// the hand comes.
+// Of 40,000 rows means of 40 are searched first; the search among the rows around the roll tells
+// when the hand comes.
 TEST_CASE("free_roll: in a long run, too, a hand is told to a few rows", "[signal]") {
   const Series e = noise(40000, 7);
   std::vector<Sample> run;
@@ -86,6 +88,45 @@ TEST_CASE("free_roll: in a long run, too, a hand is told to a few rows", "[signa
   CAPTURE(roll.kept.from, roll.kept.to, roll.after);
   CHECK(roll.how == FreeRoll::End::is_ended);
   CHECK(std::abs(roll.after - 16.511) < 0.004);
+}
+
+// The speed of a body that is carried back rises and falls like 1 - cos: at some moment it slows
+// down just as the free body does.
+TEST_CASE("free_rolls: the way back in a hand is none", "[signal]") {
+  unsigned wrong = 0;
+  for (unsigned seed = 1; seed <= of_many(100); ++seed) {
+    std::vector<double> x(25, 0.3);
+    constexpr double dt = 0.04;
+    const auto roll = [&](double v) {  // a ball, after a push of 0.4 s
+      for (int i = 1; i < 10; ++i) x.push_back(x.back() + v * i / 10 * dt);
+      for (; v > 0; v -= (0.11 + 0.05 * v) * dt) x.push_back(x.back() + v * dt);
+      x.insert(x.end(), 25, x.back());
+    };
+    const auto carry_back = [&](std::size_t rows) {
+      const double way = x[0] - x.back();
+      const double begin = x.back();
+      for (std::size_t i = 1; i <= rows; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(rows);
+        const double turn = 2 * std::numbers::pi;
+        x.push_back(begin + way * (part - std::sin(turn * part) / turn));
+      }
+      x.insert(x.end(), 25, x.back());
+    };
+    for (const std::size_t rows : {25, 32, 39, 46}) {
+      roll(0.5 + 0.003 * seed);
+      carry_back(rows + seed % 7);
+    }
+    const Series e = noise(x.size(), seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      run.push_back({dt * static_cast<double>(i), 1e-3 * std::round(1e3 * x[i] + 0.3 * e[i])});
+    const std::size_t found = free_rolls(run, true).size();
+    CAPTURE(seed);
+    CHECK(found >= 4);
+    wrong += static_cast<unsigned>(found) - 4;
+  }
+  CAPTURE(wrong);
+  CHECK(wrong <= at_most(of_many(100), 0.02));
 }
 
 TEST_CASE("free_roll: it takes ten rows", "[signal]") {
