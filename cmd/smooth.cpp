@@ -104,7 +104,17 @@ class Told {
   std::string times_, one_;
 };
 
-void add_options(Tool& tool, SelectionOptions& select) {
+void add_options(Tool& tool, std::string& column, SignalOptions& options,
+                 SelectionOptions& select) {
+  tool.text("-c,--column", column, "COLUMN",
+            "the column to smooth (v, else the first that is not t); to select rows, x before v");
+  tool.choice("-M,--method", options.method, by_name(smoothing_methods),
+              "what replaces a reading (mean)");
+  tool.number("-w,--width", options.width.samples, whole,
+              "width of the window, an odd number of rows (11)");
+  tool.number("--seconds", options.width.seconds, positive,
+              "width of the window in seconds, instead of rows");
+  tool.number("--order", options.order, whole, "order of savgol's polynomial (2)");
   tool.number("--outliers", select.outliers, positive,
               "leave out readings this many times the scatter off the motion of their neighbours");
   tool.flag("--coast", select.coast,
@@ -144,17 +154,8 @@ int main(int argc, char** argv) {
             "rows.");
   std::string column;
   SelectionOptions select;
-  auto methods = by_name(smoothing_methods);
-  SignalOptions options{methods["mean"]};
-  tool.text("-c,--column", column, "COLUMN",
-            "the column to smooth (v, else the first that is not t); to select rows, x before v");
-  tool.choice("-M,--method", options.method, methods, "what replaces a reading (mean)");
-  tool.number("-w,--width", options.width.samples, whole,
-              "width of the window, an odd number of rows (11)");
-  tool.number("--seconds", options.width.seconds, positive,
-              "width of the window in seconds, instead of rows");
-  tool.number("--order", options.order, whole, "order of savgol's polynomial (2)");
-  add_options(tool, select);
+  SignalOptions options{by_name(smoothing_methods)["mean"]};
+  add_options(tool, column, options, select);
   tool.input();
   tool.output();
 

@@ -73,9 +73,9 @@ struct FitOfRuns {
   std::optional<LawComparison> laws = {};  ///< if laws are compared
 };
 
-/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) by -4.1 +- 0.4 %, its exponent by +0.012 +-
-/// 0.004; ...". In a check also, where the runs agree as a whole, that one of them is off. Empty if
-/// neither is so.
+/// "the runs disagree ...: run 3 stands out, its D(0.21 m/s) by -4.1 +- 0.4 %, its exponent by
+/// +0.012 +- 0.004; ...". In a check also, where the runs agree as a whole, that one of them is
+/// off. Empty if neither is so.
 std::string disagreement(const Agreement&, const std::vector<Run>&, bool check);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
