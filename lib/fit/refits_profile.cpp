@@ -184,7 +184,7 @@ bool as_expected(const Profile& profile, const Profile::Visit& at) {
 
 /// The change of the number, in the direction of this first visit, at which the sum of squares has
 /// risen by that of 95 %; infinite if it does not rise so far within ten times the linear interval.
-/// A wall is an end too.
+/// A wall is an end too, also one that only shows by a number that hardly moves.
 double end_of_interval(const Profile& profile, Profile::Visit far) {
   constexpr int most = 10;
   const auto is_end = [](const Profile::Visit& at) {
@@ -193,7 +193,8 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
   Profile::Visit near = profile.start();
   const double widest = 10 * normal * profile.sigma();
   for (int i = 0; i < most && !is_end(far); ++i) {
-    if (far.distance < normal && far.at_wall) return far.change;
+    const bool hardly_moves = std::abs(far.change) < std::abs(far.to) / 10;
+    if (far.distance < normal && (far.at_wall || hardly_moves)) return far.change;
     if (far.distance < normal && std::abs(far.to) > widest) break;
     double to = near.to == 0 ? far.to / 8 : (near.to + far.to) / 2;
     const bool beyond = far.distance > normal;
