@@ -12,6 +12,9 @@ system=$(. /etc/os-release 2>/dev/null && echo "$PRETTY_NAME" || uname -sr)
 system+=", $(uname -m), $(${CXX:-g++} --version | head -n 1)"
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
+# Before the first line, which changes the sources.
+make all >"$scratch/said" 2>&1 || { tail -n 20 "$scratch/said" && exit 2; }
+version=$(bin/smooth --version | cut -d ' ' -f 3)
 for goal; do
   SECONDS=0
   make "$goal" >"$scratch/said" 2>&1
@@ -20,7 +23,6 @@ for goal; do
     s/^  (survived: )/\1/p' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
   last=${last:-done in $SECONDS s}
   [ $status = 0 ] || { wrong=1 && tail -n 20 "$scratch/said" && last+=" (make: exit status $status)"; }
-  version=$(bin/smooth --version | cut -d ' ' -f 3)
   touch tests/results.txt
   {
     grep -vF "make $goal: $system: " tests/results.txt
