@@ -112,7 +112,7 @@ TEST_CASE("free_rolls: the way back in a hand is none", "[signal]") {
       }
       x.insert(x.end(), 25, x.back());
     };
-    for (const std::size_t rows : {25, 32, 39, 46}) {
+    for (const std::size_t rows : {25U, 32U, 39U, 46U}) {
       roll(0.5 + 0.003 * seed);
       carry_back(rows + seed % 7);
     }
