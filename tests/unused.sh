@@ -13,7 +13,8 @@ export scratch CXX=${CXX:-g++}
 printf '%s\n' lib/*/*.cpp cmd/*.cpp | xargs -P "$(nproc)" -I {} sh -c \
   '$CXX -O0 -fno-inline -ffunction-sections -ffp-contract=off -std=c++20 -Ilib -c -o "$scratch/$(echo {} | tr / _).o" {}'
 for tool in cmd/*.cpp; do
-  "$CXX" -Wl,--gc-sections -o "$scratch/tool" "$scratch/$(echo "$tool" | tr / _).o" "$scratch"/lib_*.o \
+  # shellcheck disable=SC2086  # words, as ccache g++
+  $CXX -Wl,--gc-sections -o "$scratch/tool" "$scratch/$(echo "$tool" | tr / _).o" "$scratch"/lib_*.o \
     -lgsl -lgslcblas -lfmt -lm
   nm --defined-only "$scratch/tool" | awk '{ print $3 }'
 done | sort -u >"$scratch/used"
