@@ -31,11 +31,10 @@ options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column...
   --anemometer -o' "$@"
 [ -z "$no_f1" ] || law='d0+d2*v^2'
 [ ${#operands[@]} -gt 0 ] || wrong 'there is no run'
-back_begins=$back
+[ "$back" != ${#operands[@]} ] || wrong '--back needs the files of the way back'
 out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
 TM=$test_mass measured=$anemometer svg=$o
 [ ${#out[@]} -gt 0 ] || wrong 'there is no run'
-[ -z "$back_begins" ] || [ ${#back[@]} -gt 0 ] || wrong '--back needs the files of the way back'
 [ "$m" ] && [ "$rotating" ] || wrong 'say the masses in kg: -m 1500 --rotating 60, or --rotating 0'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
   [ -z "$number" ] || is_number "$number" || wrong "$number is not a number"
@@ -58,7 +57,7 @@ esac
 for option in $chosen; do
   case $option in
     -T | -p | --standard | --test-mass | --anemometer)
-      [ "$T" ] && [ "$p" ] || wrong "$option needs -T and -p, both" ;;
+      [ "$T" ] && [ "$p" ] || wrong "$option goes with -T and -p: give both" ;;
     -o)
       [ "${svg%.svg}" != "$svg" ] || wrong "-o $svg: the figure is an SVG, FILE.svg"
       for file in "${operands[@]}"; do

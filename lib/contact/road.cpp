@@ -53,9 +53,9 @@ Road::Place Road::at(double x) const {
 }
 
 void Road::check(double x) const {
-  if (!(x >= x_.front() && x <= x_.back()))
-    fail("x = {:.6g} m is outside of the table of heights, {} to {}", way_ * x,
-         way_ * (way_ > 0 ? x_.front() : x_.back()), way_ * (way_ > 0 ? x_.back() : x_.front()));
+  if (x >= x_.front() && x <= x_.back()) return;
+  const auto [least, most] = std::minmax({way_ * x_.front(), way_ * x_.back()});
+  fail("x = {:.6g} m is outside of the table of heights, {} to {}", way_ * x, least, most);
 }
 
 const Road* Road::mirrored() const {

@@ -134,8 +134,7 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   }
   const std::vector<double> c = all.solve();
   if (fit_slope && !(all.smallest_sine() > 1e-9 && c[0] >= least)) return even_roll(thin, false);
-  EvenRoll even{c[0] >= least ? c[0] : least, fit_slope ? c[1] : 0, thin.front().fastest() / 2,
-                time};
+  EvenRoll even{std::max(least, c[0]), fit_slope ? c[1] : 0, thin.front().fastest() / 2, time};
   for (const auto& [run, most, turns, speeds] : thin) {
     even.v0.push_back(std::max(speeds[0], 0.05 * std::ranges::max(speeds)));
     even.x0.push_back(run.y[0] - run.way * even.v0.back() * run.t[0]);

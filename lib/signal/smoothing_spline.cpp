@@ -61,7 +61,10 @@ double SplineDerivative::solve(double alpha) {
 /// An element of Q g: how much the third derivative jumps at a knot.
 double SplineDerivative::Qg(std::size_t i) const {
   const auto third = [this](std::size_t k) { return (g_[k + 1] - g_[k]) / h_[k]; };
-  return (i < h_.size() ? third(i) : 0) - (i > 0 ? third(i - 1) : 0);
+  double jump = 0;
+  if (i < h_.size()) jump += third(i);
+  if (i > 0) jump -= third(i - 1);
+  return jump;
 }
 
 std::span<const double> SplineDerivative::finish() {
