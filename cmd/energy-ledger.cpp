@@ -174,6 +174,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
   bool without_closure = false;
   while (pipe ? pipe->next_run() : in.next_run()) {
     const std::string run = in.run_name();
+    tool.know_run(run);
     if (task.law_of_scene && in.find("D"))
       fail<InputError>(
           "run {} has a column D, and the runs before it have none: choose the law by -a and -b, "

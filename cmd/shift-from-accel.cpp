@@ -38,8 +38,8 @@ int main(int argc, char** argv) {
     if (beyond > 0)
       tool.warn(fmt::format("D is beyond the radius {} m in {} of {} rows: {}", body.R, beyond,
                             rows,
-                            2 * beyond > rows ? "the unit of a is probably wrong, which --use "
-                                                "says: 'a=3[cm/s^2]'"
+                            2 * beyond > rows ? "the unit of a is probably wrong: --use "
+                                                "gives another one, as 'a=COLUMN[UNIT]'"
                                               : "the acceleration is noisy"));
     return 0;
   });

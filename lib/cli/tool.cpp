@@ -124,6 +124,7 @@ void Tool::accept() {
   const auto take = [this](const std::string& run) {
     if (run.empty()) fail("'' is no value");
     accepted_.insert(run);
+    unknown_.insert(run);
   };
   add("--accept", "RUN", "let this run pass the check; may be repeated", take, Values::many);
 }
@@ -222,6 +223,8 @@ int Tool::finish(int status) {
     left_out += reader->left_out();
   }
   count_left_out(left_out, "a reading is missing");
+  for (const std::string& run : unknown_)
+    warn(fmt::format("--accept {}: there is no run of this name", shown(run)));
   return std::max(status, failed_ ? 1 : 0);  // trouble is more than a check that does not hold
 }
 

@@ -205,6 +205,9 @@ class Tool {
     failed_ = true;
   }
 
+  /// There is a run of this name, which --accept may name.
+  void know_run(const std::string& run) { unknown_.erase(run); }
+
   bool checks = false;  ///< --check
   Output out;
 
@@ -220,7 +223,8 @@ class Tool {
   void doubt_body();  ///< tells numbers that are hardly meant in these units
   std::string message_of(const Error&) const;  ///< with its place
   std::string fixed_values() const;            ///< `--fix a=2e-3, --slope 0.1`: on the command line
-  /// Refuses `K=0.5`, which is meant as an option, unless there is a file of that name.
+  /// Refuses a scene among the files of columns, and `K=0.5`, which is meant as an option, unless
+  /// there is a file of that name.
   void refuse_misplaced(const std::string& file) const;
   Reader& open(ReaderOptions, std::vector<std::string> order);
   int finish(int status);
@@ -232,6 +236,7 @@ class Tool {
   bool standard_input_taken_ = false;  // a Reader reads it; a second one cannot
   bool failed_ = false;
   std::set<std::string> accepted_;  // the runs of --accept
+  std::set<std::string> unknown_;   // those of them that have not been read
   LinesOfRuns waiting_;
   Body last_body_{not_given, not_given, not_given};  // of the options
   std::vector<std::string> doubts_;                  // about its numbers

@@ -263,6 +263,7 @@ namespace {
 /// What to do about a word that is no option: the option that is meant, if the word is its
 /// beginning or hardly another one; capital letters and underscores do not count.
 std::string way_to_option(const CLI::App& app, const std::string& word) {
+  if (word.ends_with(".toml")) return "a scene is given by --scene";
   const auto plain = [](std::string name) {
     for (char& c : name) c = c == '_' ? '-' : static_cast<char>(std::tolower(c));
     return name;
@@ -357,6 +358,7 @@ bool Tool::has(const std::string& option) const {
 }
 
 void Tool::refuse_misplaced(const std::string& file) const {
+  if (file.ends_with(".toml")) fail<OptionError>("{0} is a scene: write --scene {0}", shown(file));
   if (::access(file.c_str(), F_OK) == 0) return;
   for (const std::string_view dash : {"\u2013", "\u2014", "\u2212"})
     if (file.starts_with(dash))

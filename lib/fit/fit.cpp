@@ -151,7 +151,10 @@ void require_roll(const Fitted& found) {
     for (std::size_t i = 0; i + 1 < run.t.size() && fastest <= v0 / levels::v0_over_speeds; ++i)
       fastest = std::max(fastest, std::abs(roll.at(run.t[i + 1]).x - roll.at(run.t[i]).x) /
                                       (run.t[i + 1] - run.t[i]));
-    if (v0 > levels::v0_over_speeds * fastest)
+    const bool too_fast = v0 > levels::v0_over_speeds * fastest;
+    if (too_fast && found.parameters().fixes_v0())
+      fail("{}no reading comes near the fixed v0, {:.3g} m/s", run.place, found.v0[r].value);
+    if (too_fast)
       fail<ReadingOff>(
           "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, probably does not "
           "belong to the roll",

@@ -79,6 +79,7 @@ class Parameters {
   std::size_t columns() const { return free(0, most); }
   std::size_t count() const { return runs_ * own() + shared(); }
   bool has_x0() const { return position_ || !fixed_[1]; }
+  bool fixes_v0() const { return fixed_[0].has_value(); }
   bool of_positions() const { return position_; }
 
   Law law(const std::vector<double>& theta) const;

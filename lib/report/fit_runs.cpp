@@ -172,6 +172,7 @@ std::vector<Run> read_runs(Tool& tool, Reader& in, Route route, bool needs_x) {
   while (in.next_run()) {
     Run& run = runs.emplace_back();
     run.name = in.run_name();
+    tool.know_run(run.name);
     if (!in.history().empty())  // the `##` lines are compared with the other columns
       for (const Quantity q : {Quantity::t, Quantity::x, Quantity::v, Quantity::D})
         if (const std::string name(name_of(q)); in.find(name) && !slots[q])
@@ -272,6 +273,7 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   bodies.give_to(rows.runs);
   std::vector<std::optional<ShiftOf>> of_runs;
   for (Run& run : rows.runs) {
+    tool.know_run(run.name);
     if (run.shift_of) {
       ShiftOf contact{run.body, run.shift_of->geometry};
       const std::string others = take_contact(tool, *run.shift_of, contact);

@@ -136,10 +136,8 @@ class Remarks {
   }
 
   void geometry() {
-    // A column whose unit may be wrong, and how --use says another one.
-    std::pair fitted{"x", "x=2[mm]"};
-    if (fit_.route == Route::velocity) fitted = {"v", "v=2[cm/s]"};
-    if (!is_trajectory(fit_.route)) fitted = {"a", "a=3[cm/s^2]"};
+    const std::string_view fitted =
+        is_trajectory(fit_.route) ? rolling::name_of(fitted_column(fit_.route)) : "a";
     for (std::size_t i = 0; i < fit_.runs.size(); ++i) {
       const Run& run = fit_.runs[i];
       const double v = i < r_.v0.size() ? std::abs(r_.v0[i].value) : fastest(run);
@@ -149,9 +147,8 @@ class Remarks {
       if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
       const std::string text = fmt::format(
           "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of t or {} "
-          "is probably wrong, which --use says: 't=1[ms]' or '{}'",
-          D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted.first,
-          fitted.second);
+          "is probably wrong: --use gives another one, as 't=COLUMN[UNIT]'",
+          D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted);
       if (beyond) object(run.name, text);
       else tool_.warn(run.name, text);
       break;
