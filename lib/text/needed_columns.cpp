@@ -205,6 +205,9 @@ void NeededColumns::refuse(std::string_view name) const {
   if (!named_) way_out += "; if this line is a heading, begin it with #";
   if (has_use_ && known_quantity(name))
     way_out += fmt::format("{} say --use {}=COLUMN", way_out.empty() ? ";" : ", or", name);
+  const bool none_is_known =
+      std::ranges::none_of(quantities_, [](const auto& q) { return known_quantity(q); });
+  if (has_use_ && name == "t" && none_is_known) way_out += ", and --use x=COLUMN or v=COLUMN";
   fail("there is no column '{}' among {}{}", shown(name), list(), way_out);
 }
 

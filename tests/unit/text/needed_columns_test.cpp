@@ -156,7 +156,8 @@ TEST_CASE("needed columns: a column that is absent", "[text]") {
   CHECK(output({"t[s]", "w[rad/s]"}) ==
         "there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
   // The case of letters matters in short names.
-  CHECK(output({"T", "V"}) == "there is no column 't' among T, V; say --use t=COLUMN");
+  CHECK(output({"T", "V"}) ==
+        "there is no column 't' among T, V; say --use t=COLUMN, and --use x=COLUMN or v=COLUMN");
   CHECK(output({"t"}, {}, {"n"}) == "t is the only column, but n is needed too");
   NeededColumns needed({}, true);
   needed.begin_run(columns({"t"}), false, {});
