@@ -142,13 +142,15 @@ EvenRoll even_roll(const std::vector<Thinned>& thin, bool fit_slope) {
   return even;
 }
 
-/// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well.
+/// `rss` is the sum of squares of the best roll. Throws Error if a body at rest would fit as well,
+/// as far as a rough search tells.
 /// Throws Error, too, if the body of a run comes back on a level mat and the best roll is far from
 /// the readings; a few false echoes do not bring it so far.
 void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions& options) {
   constexpr double far = 0.1;  // of the way or of the highest speed
   double square = 0;
   double at_rest = 0;
+  double rows = 0;
   for (const Thinned& of : thin) {
     const ObservedRun& run = of.run;
     const double n = static_cast<double>(run.t.size());
@@ -157,11 +159,12 @@ void require_near(const std::vector<Thinned>& thin, double rss, const FitOptions
                          : 0;
     square += std::pow(far * (run.column == Quantity::x ? of.way : of.fastest()), 2) * n;
     for (const double y : run.y) at_rest += (y - x) * (y - x);
+    rows += n;
   }
   for (const auto& [run, way, turns, speeds] : thin)
     if (turns && run.body.slope == 0 && !options.fit_slope && !options.robust && rss > square)
       refuse_way_back(run);
-  if (std::isfinite(rss) && rss >= at_rest * (1 - 1e-9))
+  if (std::isfinite(rss) && rss >= at_rest * (1 - 1e-3 / rows))
     fail<NotOneRoll>("no law a v^b comes near the data");
 }
 
@@ -319,7 +322,8 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
       all.push_back(q.theta({a, b}, even.v0, even.x0, even.slope));
     }
   const Model model(std::move(seen), q);
-  const System system = system_of(model);
+  System system = system_of(model);
+  system.rough = true;
   Minimum best;
   if (on_road) {
     for (const std::vector<double>& start : all)
@@ -333,6 +337,9 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   }
   best.theta = all[0];
   for (const std::vector<double>& start : all) improve(best, system, start);
+  system.rough = false;
+  if (!std::isfinite(best.rss))
+    for (const std::vector<double>& start : all) improve(best, system, start);
   // A body that turns on a slope would be held there by a law with b < 0, so that the sum of
   // squares has a wall at b = 0. A search that comes to the wall before the other parameters are
   // right does not leave it; with b held the other parameters come first.
