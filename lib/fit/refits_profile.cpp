@@ -214,6 +214,19 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
   return far.distance < normal ? INFINITY : near.change;
 }
 
+/// The minimum_at_wall(), unless the body rolls alike just behind it: a mat that holds it at rest
+/// holds it for b < 0 as well.
+std::optional<Minimum> end_at_wall(const Fitted& fit) {
+  auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
+  if (!wall) return wall;
+  const Parameters& q = fit.parameters();
+  std::vector<double> behind = wall->theta;
+  behind[q.count() - q.scene() - 1] = -1e-6;
+  const double variance = fit.minimum.rss / static_cast<double>(fit.degrees_left());
+  if (tried(fit.system(), std::move(behind)).rss < wall->rss + variance) return {};
+  return wall;
+}
+
 }  // namespace
 
 std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertainty& noise,
@@ -228,7 +241,7 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
   }
   if (doubtful.empty()) return found;
   const Fitted fit = of_means(of_all, options);
-  const auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
+  const auto wall = end_at_wall(fit);
   for (const std::size_t j : doubtful) {
     const Profile profile(fit, j, std::sqrt(noise.covariance[j][j]), wall);
     const double change = normal * profile.sigma();

@@ -22,11 +22,12 @@ std::string row(const coverage::Case& what, const coverage::Scene& scene, int ru
   const char* const route_names[] = {"loglog", "shift", "velocity", "position"};
   const auto r = coverage::measure(what, scene, runs, 20261121);
   return fmt::sprintf(
-      "%-31s %-8s %-5s %+7.2f %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f%s%s %7s %5.2f %6.3f %4d %8d "
-      "%6.2f\n",
+      "%-31s %-8s %-5s %+7.2f %+7.2f %+7.2f %8.5f %9s %7.3f %7.3f%s%s %5s %7s %5.2f %6.3f %4d "
+      "%8d %6.2f\n",
       what.name, route_names[static_cast<int>(what.route)], scene.name, r.bias_a, r.percent_a,
       r.bias_b, r.sd_b, what.bound ? fmt::sprintf("%.3f", r.over_bound) : "-", r.sigma_a, r.sigma_b,
       shares(r.covers_a), shares(r.covers_b),
+      what.begins_at_v0() ? fmt::sprintf("%.3f", r.cover_v0) : "-",
       what.down > 0 ? fmt::sprintf("%.3f", r.cover_slope) : "-", r.told, r.differ, r.far, r.refused,
       1e3 * r.seconds);
 }
@@ -41,23 +42,25 @@ int main(int argc, char** argv) {
     const auto add = [&](const coverage::Scene& scene) {
       rows.push_back([=] { return row(what, scene, runs); });
     };
-    for (const auto& scene : {coverage::CR, coverage::CF}) add(scene);
+    add(coverage::CR);
+    if (what.law == 0) add(coverage::CF);
     if (what.whole)
       for (const auto& scene : {coverage::SR, coverage::SF}) add(scene);
-    if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11"))
+    if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11") ||
+        what.rises > 0)
       for (const auto& scene : coverage::exponents) add(scene);
   }
   std::printf(
       "# %d runs each; biases in sd; sigma/sd: standard errors over the spread; a50 .. b99: shares "
-      "of the intervals of 50, 68, 95 and 99 %% that hold; slope: of 95 %%; "
+      "of the intervals of 50, 68, 95 and 99 %% that hold; v0, slope: of 95 %%; "
       "told: errors of the autocorrelation or of uneven noise; differ: joint runs that are said to "
       "disagree; far: beyond 6 standard errors\n",
       runs);
   std::printf(
-      "%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %5s %5s %5s %5s %5s %5s %5s %5s %7s %5s "
+      "%-31s %-8s %-5s %7s %7s %7s %8s %9s %7s %7s %5s %5s %5s %5s %5s %5s %5s %5s %5s %7s %5s "
       "%6s %4s %8s %6s\n",
       "# case", "route", "scene", "bias_a", "%_of_a", "bias_b", "sd_b", "sd/bound", "sigma_a",
-      "sigma_b", "a50", "a68", "a95", "a99", "b50", "b68", "b95", "b99", "slope", "told", "differ",
-      "far", "refused", "ms");
+      "sigma_b", "a50", "a68", "a95", "a99", "b50", "b68", "b95", "b99", "v0", "slope", "told",
+      "differ", "far", "refused", "ms");
   bench::print_rows(std::move(rows));
 }

@@ -31,13 +31,16 @@ struct Row {
   double bias_a = 0, bias_b = 0;    ///< in standard deviations of one run
   double sd_b = 0, over_bound = 0;  ///< of b; over the Cramer-Rao bound, 0 where it does not apply
   double percent_a = 0;             ///< bias of a in per cent of a
-  /// Shares of runs whose intervals of these levels hold the truth.
+  /// Shares of runs whose intervals of these levels hold the truth; of another law those of its
+  /// first and of its last coefficient. One of 95 % is that of the profile where it is printed.
   static constexpr double levels[] = {0.50, 0.68, 0.95, 0.99};
   double covers_a[4] = {}, covers_b[4] = {};
   double cover_a = 0, cover_b = 0;  ///< those of 95 %
   double cover_slope = 0;
+  double cover_v0 = 0;
   double sigma_a = 0, sigma_b = 0;  ///< root of the mean square of the standard errors, over the sd
-  /// Share of runs of which is told that their noise is not white through the filters.
+  /// Share of runs of which is told that their noise is not white through the filters, that frames
+  /// are lost, or that 1.96 standard errors are no interval.
   double told = 0;
   double differ = 0;  ///< share of joint fits whose runs are said to disagree
   int far = 0;        ///< runs further than 6 of their own standard errors from the truth
@@ -68,7 +71,10 @@ class Simulation {
  public:
   Simulation(const Case& c, rolling::Roll& truth, const Scene& scene, unsigned seed)
       : c_(c), truth_(truth), scene_(scene),
-        n_(c.few > 0 ? c.few : static_cast<std::size_t>(truth.stop_time() / dt * c.finer) + 1),
+        n_(c.few > 0 ? c.few
+                     : static_cast<std::size_t>((c.rises > 0 ? 2 : 1) * truth.stop_time() / dt *
+                                                c.finer) +
+                           1),
         step_(c.few > 0 ? truth.stop_time() / static_cast<double>(c.few) : dt / c.finer),
         noise_(seed), random_(seed + 1) {}
   std::size_t rows() const { return n_; }
@@ -79,6 +85,7 @@ class Simulation {
     times_the_noise_ = i < c_.runs - c_.noisy ? 1 : 5;
     rolling::Run run{};
     run.body = scene_.body();
+    run.body.slope = c_.rises;
     const Column raw = c_.ending     ? pushed_roll(run.t)
                        : c_.whole    ? free_roll(run.t)
                        : c_.gate > 0 ? gates(run.t)
@@ -86,6 +93,9 @@ class Simulation {
     run.x = run.v = run.D = raw;
     if (c_.unknown) run.v = c_.unknown(raw);
     if (c_.gate > 0 && c_.route == Route::velocity) pulses(run);
+    if (c_.noise_of_a > 0)
+      for (std::size_t k = 0; k < run.t.size(); ++k)
+        run.D[k] = shift(truth_.at(run.t[k]).a + noise_(c_.noise_of_a));
     if (c_.history.empty()) return run;
     rolling::History history = rolling::history_of(c_.history, run.t);
     run.filters = std::move(history.filters);
@@ -95,11 +105,15 @@ class Simulation {
     for (const std::string& line : c_.history) filter(line, run.t, columns);
     run.v = columns["v"];
     run.D = columns["a"];
-    for (double& D : run.D) D *= -(1 + run.body.K) * run.body.R / run.body.g;
+    for (double& D : run.D) D = shift(D);
     return run;
   }
 
  private:
+  double shift(double a) const {
+    const rolling::Body body = scene_.body();
+    return -a * (1 + body.K) * body.R / body.g;
+  }
   /// The raw column from the beginning of the roll to its stop, at the times t.
   Column readings(Column& times) {
     rolling::Body body = scene_.body();
@@ -125,7 +139,8 @@ class Simulation {
       if (c_.resolution > 0) y = c_.resolution * std::round(y / c_.resolution);
       if (uniform() < c_.outliers) y += uniform() - 0.5;
       if (i > 0 && (uniform() < c_.lost || t <= times.back())) continue;
-      times.push_back(t);
+      if (i > 0 && uniform() < c_.dropped) continue;
+      times.push_back(c_.dropped > 0 ? step_ * static_cast<double>(times.size()) : t);
       raw.push_back(y);
     }
     return raw;
@@ -223,8 +238,14 @@ class Simulation {
 };
 
 inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
-  rolling::Roll truth(scene.body(), rolling::Geometry::approximate, scene.law(), 0.5);
   rolling::FitOptions options;
+  options.law = &rolling::laws()[c.law];
+  const Column truths = c.law > 0 ? c.c : Column{scene.a, scene.b};
+  rolling::Body body = scene.body();
+  body.slope = c.rises;
+  rolling::Roll truth(
+      body, rolling::Geometry::approximate,
+      c.law > 0 ? rolling::Law::as_written(*options.law, c.c) : rolling::Law(scene.law()), 0.5);
   options.robust = c.outliers > 0;
   options.fit_slope = c.down > 0;
   options.possible_filters = rolling::filters_of_sensors();
@@ -238,25 +259,36 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     try {
       const bool pulses = c.gate > 0 && c.route == Route::velocity;
       const auto r = rolling::fit(pulses ? Route::position : c.route, joint, options);
-      const double a = (r.a - scene.a) / r.sigma_a, b = (r.b - scene.b) / r.sigma_b;
+      const rolling::Estimate first = r.coefficients.front(), last = r.coefficients.back();
       for (std::size_t i = 0; i < 4; ++i) {
         const double P = (1 + Row::levels[i]) / 2,
                      most = c.student ? gsl_cdf_tdist_Pinv(P, static_cast<double>(r.freedom))
                                       : gsl_cdf_ugaussian_Pinv(P);
-        row.covers_a[i] += std::abs(a) < most;
-        row.covers_b[i] += std::abs(b) < most;
+        const auto holds = [&](std::size_t number, double value) {
+          const auto profile = std::ranges::find(r.not_visited, number, &rolling::Interval::number);
+          if (Row::levels[i] == 0.95 && profile != r.not_visited.end())
+            return profile->lower <= value && value <= profile->upper;
+          const rolling::Estimate x = r.coefficients[number];
+          return std::abs(x.value - value) < most * x.sigma;
+        };
+        row.covers_a[i] += holds(0, truths.front());
+        row.covers_b[i] += holds(truths.size() - 1, truths.back());
       }
+      if (!r.v0.empty())
+        row.cover_v0 += std::abs(std::abs(r.v0[0].value) - 0.5) < 1.96 * r.v0[0].sigma;
       row.cover_slope +=
           c.down > 0 && std::abs(r.scene[0]->value - slope) < 1.96 * r.scene[0]->sigma;
-      row.far += std::abs(b) > 6 || std::abs(a) > 6;
+      const double error_a = first.value - truths.front(), error_b = last.value - truths.back();
+      row.far += std::abs(error_b) > 6 * last.sigma || std::abs(error_a) > 6 * first.sigma;
       row.told += rolling::noise_is_correlated(r) || r.errors == rolling::Errors::uneven ||
-                  r.reversals <= rolling::levels::few_reversals ||
+                  r.reversals <= rolling::levels::few_reversals || r.clock_jump ||
+                  !r.not_visited.empty() ||
                   (c.route == Route::loglog && rolling::logarithms_biased(r));
       row.differ += r.agreement && !r.agreement->agree();
-      row.sigma_a += r.sigma_a * r.sigma_a;
-      row.sigma_b += r.sigma_b * r.sigma_b;
-      as.push_back(r.a - scene.a);
-      bs.push_back(r.b - scene.b);
+      row.sigma_a += first.sigma * first.sigma;
+      row.sigma_b += last.sigma * last.sigma;
+      as.push_back(error_a);
+      bs.push_back(error_b);
     } catch (const rolling::Error&) {
       ++row.refused;
     }
@@ -272,7 +304,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     return sd;
   };
   const double sd_a = moments(as, row.bias_a);
-  row.percent_a = 100 * row.bias_a * sd_a / scene.a;
+  row.percent_a = 100 * row.bias_a * sd_a / truths.front();
   row.sd_b = moments(bs, row.bias_b);
   if (c.bound)
     row.over_bound = row.sd_b / bound_of_b(truth, simulation.rows(), c.route == Route::position);
@@ -282,6 +314,7 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
     for (std::size_t i = 0; i < 4; ++i) cover[i] /= runs;
   row.cover_a = row.covers_a[2], row.cover_b = row.covers_b[2];
   row.cover_slope /= runs;
+  row.cover_v0 /= runs;
   row.told /= runs;
   row.differ /= runs;
   return row;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -27,14 +28,19 @@ struct Case {
   bool only_rounded = false;  ///< and have no other noise
   double outliers = 0;        ///< share of readings that are false echoes
   double lost = 0;            ///< share of rows that are missing
-  double growth = 0;          ///< the noise grows along the run by so many times its size
-  double AR = 0;              ///< correlation of the noise from one reading to the next
-  int runs = 1;               ///< that are fitted jointly
-  double scatter = 0;         ///< of a from run to run, as a share
-  int noisy = 0;              ///< the last so many runs have five times the noise
-  int down = 0;               ///< the last so many roll down a slope, which is fitted (positions)
-  int digits = 0;             ///< all columns are rounded to so many by the tools
-  bool whole = false;         ///< the free roll is sought in the whole run of a sensor
+  double dropped = 0;         ///< the same, but the times go on as if no row were missing
+  double rises = 0;           ///< slope of the mat, which the body rolls up and back
+  double noise_of_a = 0;      ///< D is that of an accelerometer, v of another sensor [m/s^2]
+  std::size_t law = 0;  ///< another law than a v^b: its number in laws(), and its coefficients
+  Column c = {};
+  double growth = 0;   ///< the noise grows along the run by so many times its size
+  double AR = 0;       ///< correlation of the noise from one reading to the next
+  int runs = 1;        ///< that are fitted jointly
+  double scatter = 0;  ///< of a from run to run, as a share
+  int noisy = 0;       ///< the last so many runs have five times the noise
+  int down = 0;        ///< the last so many roll down a slope, which is fitted (positions)
+  int digits = 0;      ///< all columns are rounded to so many by the tools
+  bool whole = false;  ///< the free roll is sought in the whole run of a sensor
   enum Ending { none, stop, caught, braked, wall } ending = none;  ///< of a whole run, pushed
   double jitter = 0;  ///< standard deviation of the times of the readings, as a share of a step
   double gate = 0;    ///< the times are measured at which x is a multiple of this [m]
@@ -42,7 +48,12 @@ struct Case {
   bool bound = false;      ///< white noise on the fitted column: the Cramer-Rao bound holds
   int finer = 1;           ///< so many times as many rows a second
   std::size_t few = 0;     ///< or so many rows in all, evenly from the beginning on
-  bool student = false;    ///< the intervals are Student's, for the degrees of freedom of the fit
+  /// v0 of the fit is that of the scene.
+  bool begins_at_v0() const {
+    return runs == 1 && !whole && ending == none && gate == 0 &&
+           (route == Route::position || route == Route::velocity);
+  }
+  bool student = false;  ///< the intervals are Student's, for the degrees of freedom of the fit
 };
 
 constexpr double dt = 0.04, noise_x = 3e-4,
@@ -58,12 +69,10 @@ inline Column capstone(const Column& x) {
   Column v;
   for (std::ptrdiff_t i = 0; i < std::ssize(x); ++i) {
     const std::ptrdiff_t k = std::min({std::ptrdiff_t{2}, i, std::ssize(x) - 1 - i});
-    v.push_back(
-        k == 2 ? (clamped(x, i + 1) + clamped(x, i + 2) - clamped(x, i - 1) - clamped(x, i - 2)) /
-                     (6 * dt)
-        : k == 1 ? (clamped(x, i + 1) - clamped(x, i - 1)) / (2 * dt)
-        : i == 0 ? (clamped(x, 1) - clamped(x, 0)) / dt
-                 : (clamped(x, i) - clamped(x, i - 1)) / dt);
+    const double one = clamped(x, i + 1) - clamped(x, i - 1);
+    const double two = clamped(x, i + 2) - clamped(x, i - 2);
+    if (k == 2) v.push_back((one + two) / (6 * dt));
+    else v.push_back(one / ((k == 1 ? 2 : 1) * dt));
   }
   return v;
 }
@@ -92,6 +101,23 @@ inline Column since_the_row_before(const Column& x) {
                  clamped(x, std::max<std::ptrdiff_t>(i, 1) - 1)) /
                 dt);
   return v;
+}
+
+/// Speeds as the firmware of a sensor smooths them.
+inline Column exponential(const Column& v) {
+  Column smooth{v.front()};
+  for (std::size_t i = 1; i < v.size(); ++i) smooth.push_back(0.7 * smooth.back() + 0.3 * v[i]);
+  return smooth;
+}
+
+inline Column means_of_11(const Column& v) {
+  Column means;
+  for (std::ptrdiff_t i = 0; i < std::ssize(v); ++i) {
+    const std::ptrdiff_t k = std::min({std::ptrdiff_t{5}, i, std::ssize(v) - 1 - i});
+    const auto at = v.begin() + i;
+    means.push_back(std::reduce(at - k, at + k + 1) / static_cast<double>(2 * k + 1));
+  }
+  return means;
 }
 
 inline Column medians_of_5(const Column& v) {
@@ -151,6 +177,14 @@ inline std::vector<Case> cases() {
       {.name = "v by Logger Pro", .route = velocity, .unknown = logger_pro},
       {.name = "v by a spreadsheet", .route = velocity, .unknown = since_the_row_before},
       {.name = "v, medians of 5", .route = velocity, .raw = Case::v, .unknown = medians_of_5},
+      {.name = "v, means of 11", .route = velocity, .raw = Case::v, .unknown = means_of_11},
+      {.name = "v, exponential filter", .route = velocity, .raw = Case::v, .unknown = exponential},
+      {.name = "x, 2 % of frames dropped", .route = position, .dropped = 0.02},
+      {.name = "D, accelerometer, v to 5 mm/s", .route = shift, .raw = Case::v, .noise_of_a = 0.02},
+      {.name = "up .02 and back, x", .route = position, .rises = 0.02},
+      {.name = "up .02 and back, v", .route = velocity, .raw = Case::v, .rises = 0.02},
+      {.name = "d0 + a v^b, x", .route = position, .law = 5, .c = {5e-4, 1.5e-3, 0.7}},
+      {.name = "relaxation, x", .route = position, .law = 6, .c = {5e-4, 1e-3, 0.2}},
       {.name = "x to 1 mm", .route = position, .resolution = 1e-3},
       {.name = "x to 0.2 mm, no other noise",
        .route = position,
