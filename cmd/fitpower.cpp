@@ -15,16 +15,23 @@ namespace {
 
 /// Holds a parameter fixed by a text NAME=VALUE.
 void fix(FitOptions& options, const std::string& setting) {
-  const std::map<std::string, std::optional<double>*> parameters{
-      {"a", &options.a}, {"b", &options.b}, {"v0", &options.v0}, {"x0", &options.x0}};
+  std::map<std::string, std::optional<double>*> parameters{{"v0", &options.v0},
+                                                           {"x0", &options.x0}};
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < options.law->coefficients.size(); ++j) {
+    names.emplace_back(options.law->coefficients[j].name);
+    parameters[names.back()] = &options.fixed[j];
+  }
   const auto equals = setting.find('=');
   const auto parameter = parameters.find(setting.substr(0, equals));
   double value;
   if (equals == std::string::npos || parameter == parameters.end())
-    fail("'{}' is not NAME=VALUE; NAME is a, b, v0 or x0", shown(setting));
+    fail<OptionError>("--fix: '{}' is not NAME=VALUE; NAME is {}, v0 or x0", shown(setting),
+                      fmt::join(names, ", "));
   if (!parse_number(std::string_view(setting).substr(equals + 1), value))
-    fail("the value in '{}' is not a number", shown(setting));
-  if (*parameter->second) fail("'{}' comes after another for {}", shown(setting), parameter->first);
+    fail<OptionError>("--fix: the value in '{}' is not a number", shown(setting));
+  if (*parameter->second)
+    fail<OptionError>("--fix: '{}' comes after another for {}", shown(setting), parameter->first);
   *parameter->second = value;
 }
 
@@ -36,7 +43,9 @@ std::map<std::string, std::optional<Route>> routes() {
   return all;
 }
 
-void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
+/// `settings` are those of --fix; the law that they are about may come later.
+void add_options(Tool& tool, FitOptions& options, Bodies& bodies,
+                 std::vector<std::string>& settings) {
   tool.bodies(bodies.all, bodies.list, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind},
               &options);
   add_height(tool, bodies.height);
@@ -56,8 +65,8 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies) {
   tool.add("--law", "LAW", "fit this law of those that --report compares: d0+d2*v^2",
            [&](const std::string& text) { options.law = &law_named(text); });
   tool.add(
-      "--fix", "NAME=VALUE", "fix a, b, v0 or x0 at this value",
-      [&](const std::string& setting) { fix(options, setting); }, Tool::Values::many);
+      "--fix", "NAME=VALUE", "fix a coefficient of the law, v0 or x0 at this value",
+      [&](const std::string& setting) { settings.push_back(setting); }, Tool::Values::many);
 }
 
 /// Refuses a wind under a law without a drag, and says what one wind for several runs assumes.
@@ -215,7 +224,8 @@ int main(int argc, char** argv) {
       "--route", given_route, routes(),
       "fit D(v) (shift, loglog), v(t), x(t), or rows of fitpower (fits); without it shift if "
       "there is a D, else position if there is an x, else velocity");
-  add_options(tool, options, bodies);
+  std::vector<std::string> settings;
+  add_options(tool, options, bodies, settings);
   tool.flag("--each", each, "fit each run by itself, a row for each");
   tool.flag("--report", with_report,
             "print the parts of the uncertainties and the fits of other laws on standard error");
@@ -229,6 +239,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
+    for (const std::string& setting : settings) fix(options, setting);
     if (tool.on_command_line("route") && !given_route) {
       refuse_runs(tool);
       fit_rows(tool, bodies);

@@ -53,24 +53,6 @@ const LawForm& law_of_columns(const Reader& in, const std::string& file) {
                    enumeration({written.begin(), written.end()}));
 }
 
-/// The changes of the coefficients that a law takes with that of a written one. A central
-/// difference, since the formula is known by the law's coefficients, not the other way round.
-std::vector<double> changes_of(const LawForm& form, std::vector<double> written, std::size_t j,
-                               double change) {
-  constexpr double step = 1e-3;
-  const double value = written[j];
-  const auto moved = [&](double by) {
-    written[j] = value + by * change;
-    return Law::as_written(form, written);
-  };
-  const Law more = moved(step);
-  const Law less = moved(-step);
-  std::vector<double> changes;
-  for (std::size_t i = 0; i < more.size(); ++i)
-    changes.push_back((more.c(i) - less.c(i)) / (2 * step));
-  return changes;
-}
-
 /// A number of its roll that a row may have.
 struct RollNumber {
   const char* name;
@@ -263,14 +245,13 @@ std::vector<LawOfFile> rows_of_fit(Reader& in, const LawForm& form, bool with_er
         written.push_back(in[slot]);
         row.coefficients.push_back({in[slot]});
       }
-      row.law = Law::as_written(form, written);
+      row.law = Law(form, written);
       if (const auto law = row.law.power(); law && !(law->a > 0))
         fail("a = {} must be greater than 0", law->a);
       if (const auto run = in.find("run")) row.run = in.text(*run);
       for (const auto& [slot, number] : roll) row.*number = in[slot];
       for (std::size_t j = 0; j < sigmas.size(); ++j) {
         row.coefficients[j].sigma = in[sigmas[j]];
-        row.changes.push_back(changes_of(form, written, j, in[sigmas[j]]));
         row.correlations.emplace_back();
         for (std::size_t i = 0; i < j; ++i)
           row.correlations[j].push_back(in[correlations[j * (j - 1) / 2 + i]]);
@@ -361,11 +342,11 @@ void take_geometry(const Tool& tool, Geometry other, Geometry& geometry, std::st
 }
 
 double LawOfFile::sigma(std::span<const double> by_c) const {
-  if (changes.empty()) return not_given;
+  if (correlations.empty()) return not_given;
   std::vector<double> part;  // what each coefficient of the formula brings
   double variance = 0;
-  for (std::size_t j = 0; j < changes.size(); ++j) {
-    part.push_back(dot(by_c.first(changes[j].size()), changes[j]));
+  for (std::size_t j = 0; j < correlations.size(); ++j) {
+    part.push_back(by_c[j] * coefficients[j].sigma);
     variance += part[j] * part[j];
     for (std::size_t i = 0; i < j; ++i) variance += 2 * correlations[j][i] * part[i] * part[j];
   }

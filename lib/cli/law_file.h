@@ -72,16 +72,14 @@ struct LawOfFile {
   double v0 = not_given;
   double x0 = not_given;
   double t0 = not_given;
-  /// Of a row; with their uncertainties, where these are asked for. Then also by how much the
-  /// coefficients that the law takes change with one standard uncertainty of each coefficient of
-  /// the formula, and the correlations of these, row by row below the diagonal.
+  /// Of a row; with their uncertainties and correlations (row by row below the diagonal) where
+  /// these are asked for.
   std::vector<Estimate> coefficients = {};
-  Matrix changes = {};
   Matrix correlations = {};
 
-  /// The standard uncertainty of a number with these derivatives by the coefficients that the law
-  /// takes: that of a function of quantities that are correlated (GUM, Eq. 16). NaN where the law
-  /// is not a row with its uncertainties.
+  /// The standard uncertainty of a number with these derivatives by the coefficients: that of a
+  /// function of quantities that are correlated (GUM, Eq. 16). NaN where the law is not a row with
+  /// its uncertainties.
   double sigma(std::span<const double> by_c) const;
   /// That of D [m] at a velocity.
   double sigma(double v) const;

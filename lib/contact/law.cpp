@@ -87,9 +87,15 @@ Shift powers(const double* c, double v, double* by_c) {
   return s;
 }
 
+Shift constant_and_power(const double* c, double v, double* by_c) {
+  by_c[0] = 1;
+  const Shift s = power(c + 1, v, by_c + 1);
+  return {c[0] + s.D, s.by_log_v};
+}
+
 /// d0 + a v^b as h + s (v^b - 1)/b (Box and Cox 1964, J. R. Stat. Soc. B 26, 211): where b is
 /// small, d0 and a are large and nearly cancel, while h, s and b stay what they are.
-Shift constant_and_power(const double* c, double v, double* by_c) {
+Shift searched_constant_and_power(const double* c, double v, double* by_c) {
   const double n = c[2];
   const double log = std::log(v);
   const double x = n * log;
@@ -111,12 +117,6 @@ void written_constant_and_power(const double* c, double* d, double* by_c) {
   d[2] = n;
   const double J[]{1, -1 / n, s / (n * n), 0, 1 / n, -s / (n * n), 0, 0, 1};
   std::copy(std::begin(J), std::end(J), by_c);
-}
-
-void taken_constant_and_power(const double* d, double* c) {
-  c[0] = d[0] + d[1];
-  c[1] = d[1] * d[2];
-  c[2] = d[2];
 }
 
 Shift peak(const double* c, double v, double* by_c) {
@@ -170,12 +170,13 @@ const std::vector<LawForm>& laws() {
       {.formula = "d0 + a v^b",
        .coefficients = {d0, {.name = "a", .exponent = 2}, b},
        .shift = constant_and_power,
+       .searched = searched_constant_and_power,
        .written = written_constant_and_power,
-       .taken = taken_constant_and_power,
        .starts = {{1, 0.3, 0.5}, {1, 0.3, 2}}},
       {.formula = "d0 + 2 p v w/(v^2 + w^2)",
        .coefficients = {d0, {.name = "p"}, {.name = "w", .D = 0, .v = 1}},
        .shift = peak,
+       .searched = peak,
        .written = written_peak,
        .starts = {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.6}, {0.5, 0.5, 2}}},
   };
@@ -200,7 +201,7 @@ void Law::check_speed(double v) const {
 double Law::in_SI(std::size_t j, std::span<double> by_c) const {
   std::array<double, LawForm::most> d = c_;
   std::array<double, LawForm::most * LawForm::most> J{};
-  if (form_->written) form_->written(c_.data(), d.data(), J.data());
+  if (of_search_) form_->written(c_.data(), d.data(), J.data());
   else
     for (std::size_t i = 0; i < size(); ++i) J[i * size() + i] = 1;
   const LawForm::Coefficient& of = form_->coefficients[j];

@@ -61,12 +61,12 @@ struct LawForm {
   const char* formula;  ///< as a person writes it: "d0 + d1 v"
   std::vector<Coefficient> coefficients;
   /// D at v, and its derivatives by the coefficients.
-  Shift (*shift)(const double* c, double v, double* by_c);
-  /// The coefficients that the formula names, in the same units, of those that `shift` takes, and
-  /// their derivatives row by row; none where they are the same.
+  using ShiftOf = Shift(const double* c, double v, double* by_c);
+  ShiftOf* shift;
+  /// The same by other coefficients, which suit a search, and those of the formula of these, in the
+  /// same units, with their derivatives row by row; none where those of the formula suit it.
+  ShiftOf* searched = nullptr;
   void (*written)(const double* c, double* as_written, double* by_c) = nullptr;
-  /// The inverse: the coefficients that `shift` takes, of those that the formula names.
-  void (*taken)(const double* as_written, double* c) = nullptr;
   /// Starting points of a search, for a D of order one at speeds up to 1; none of a v^b, which the
   /// routes start by themselves.
   std::vector<std::vector<double>> starts = {};
@@ -98,13 +98,12 @@ class Law {
       : form_(&form), D_unit_(D_unit), v_unit_(v_unit) {
     for (std::size_t j = 0; j < size(); ++j) c_[j] = c[j];
   }
-
-  /// The law of a formula with these coefficients, as they are written, in SI units.
-  static Law as_written(const LawForm& form, std::span<const double> written) {
-    std::array<double, LawForm::most> c{};
-    if (form.taken) form.taken(written.data(), c.data());
-    else std::ranges::copy(written, c.begin());
-    return {form, c};
+  /// The law of a search, whose coefficients are those of LawForm::searched.
+  static Law searched(const LawForm& form, std::span<const double> c, double D_unit,
+                      double v_unit) {
+    Law law(form, c, D_unit, v_unit);
+    law.of_search_ = form.written != nullptr;
+    return law;
   }
 
   /// The same law in a wind of w [m/s] against the motion: its term d2 v^2 becomes
@@ -133,13 +132,13 @@ class Law {
   /// The number of coefficients; 0 for points.
   std::size_t size() const { return form_ ? form_->coefficients.size() : 0; }
   const LawForm& form() const { return *form_; }
-  /// Coefficient j that `shift` of the form takes, in the law's units.
+  /// Coefficient j of the formula or of the search, in the law's units.
   double c(std::size_t j) const { return c_[j]; }
   /// D and v dD/dv at v >= 0 [m/s], and the derivatives of D by the coefficients. Above highest()
   /// the points continue, only for the trial steps of a solver.
   Shift at(double v, double* by_c) const {
     if (points_) return points_->at(v);
-    Shift s = form_->shift(c_.data(), v / v_unit_, by_c);
+    Shift s = (of_search_ ? form_->searched : form_->shift)(c_.data(), v / v_unit_, by_c);
     if (wind_ != 0) blow(v / v_unit_, s, by_c);
     for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit_;
     return {D_unit_ * s.D, D_unit_ * s.by_log_v};
@@ -174,6 +173,7 @@ class Law {
   void blow(double v, Shift&, double* by_c) const;
 
   const LawForm* form_ = nullptr;
+  bool of_search_ = false;  // by coefficients that are not those of the formula
   std::shared_ptr<const TableLaw> points_;
   std::array<double, LawForm::most> c_{};
   double D_unit_ = 1, v_unit_ = 1;

@@ -85,7 +85,7 @@ bool is_known(const FitResult& result, std::size_t j, const FitOptions& options)
   const bool is_exponent = c.D == 0 && c.v == 0;
   const auto& [value, sigma] = result.coefficients[j];
   if (!is_exponent) return true;
-  if (result.errors == Errors::none) return options.b || std::abs(value) <= 10;
+  if (result.errors == Errors::none) return options.fixed[j] || std::abs(value) <= 10;
   return sigma <= levels::largest_sigma_b;
 }
 

@@ -34,9 +34,12 @@ LawComparison compare_laws(Route route, const std::vector<Run>& runs, FitOptions
   // difference.
   if (route == Route::loglog) route = Route::shift;
   const LawForm* const asked = std::exchange(options.law, &laws().front());
+  FitOptions::Fixed fixed = {};
+  if (asked != options.law) std::swap(fixed, options.fixed);
   std::vector<Fitted> all{of_means(fit_route(route, runs, options), options)};
   for (const LawForm& law : laws())
-    if (&law != options.law) all.push_back(fit_beside(all.front(), law));
+    if (&law != options.law)
+      all.push_back(fit_beside(all.front(), law, &law == asked ? fixed : FitOptions::Fixed{}));
   const double n = static_cast<double>(all.front().minimum.f.size());
   const double independent = independent_rows(all);
   const double least =

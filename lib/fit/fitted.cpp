@@ -63,7 +63,7 @@ void read_off(Fitted& fit) {
 Law Fitted::law() const {
   std::array<double, LawForm::most> written{};
   for (std::size_t j = 0; j < coefficients.size(); ++j) written[j] = coefficients[j].value;
-  return Law::as_written(parameters().form(), std::span(written).first(coefficients.size()));
+  return {parameters().form(), written};
 }
 
 std::vector<FittedNumber> Fitted::numbers() const {

@@ -65,7 +65,10 @@ struct FitOptions {
   const LawForm* law = &laws().front();  ///< a v^b, or the law that is fitted instead
   bool fits_power() const { return law == &laws().front(); }
   Geometry geometry = Geometry::approximate;
-  std::optional<double> a, b, v0, x0;  ///< parameters that are fixed
+  /// The coefficients of the law that are fixed [SI], and v0 and x0.
+  using Fixed = std::array<std::optional<double>, LawForm::most>;
+  Fixed fixed = {};
+  std::optional<double> v0, x0;
   bool fit_slope = false;      ///< the slope of the mat is a further parameter, common to all runs
   bool fit_wind = false;       ///< so is the wind, of a law with the drag of the air
   bool fit_steepness = false;  ///< so is the factor of the height of a road

@@ -33,7 +33,8 @@ std::vector<double> taken(const std::vector<double>& column, const Rows& rows) {
 
 Parameters::Parameters(const FitOptions& options, bool position, std::size_t runs, double v_ref,
                        double x_ref)
-    : fixed_{options.v0, options.x0, options.a, options.b, 0}, unit_{v_ref, x_ref, 1, 1, 1},
+    : fixed_{options.v0, options.x0, options.fixed[0], options.fixed[1], 0}, unit_{v_ref, x_ref, 1,
+                                                                                   1, 1},
       fit_wind_(options.fit_wind), position_(position), runs_(runs), v_unit_(v_ref) {
   if (options.v0) fixed_[0] = std::abs(*options.v0);
   if (!position && !options.fit_x0) fixed_[1] = 0;
@@ -50,14 +51,21 @@ Parameters::Parameters(const FitOptions& options, double v_unit)
   std::fill_n(&fixed_[first_of_scene], scene_numbers.size(), 0);
 }
 
-Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit) const {
+Parameters Parameters::with(const LawForm& form, double D_unit, double v_unit,
+                            const FitOptions::Fixed& fixed) const {
   Parameters other = *this;
   other.form_ = &form;
   other.is_power_ = &form == &laws().front();
   other.D_unit_ = D_unit;
   other.v_unit_ = v_unit;
+  other.as_written_ = fixed != FitOptions::Fixed{};
   std::fill_n(&other.fixed_[first_of_law], LawForm::most, 0);
-  std::fill_n(&other.fixed_[first_of_law], form.coefficients.size(), std::nullopt);
+  for (std::size_t j = 0; j < form.coefficients.size(); ++j) {
+    const LawForm::Coefficient& c = form.coefficients[j];
+    other.fixed_[first_of_law + j] = fixed[j];
+    if (other.as_written_)
+      other.unit_[first_of_law + j] = std::pow(D_unit, c.D) * std::pow(v_unit, c.v);
+  }
   if (fit_wind_ && form.drag >= 0) other.fixed_[first_of_scene + place_of_wind].reset();
   return other;
 }
@@ -101,7 +109,18 @@ Law Parameters::law(const std::vector<double>& theta) const {
   std::array<double, LawForm::most> c{};
   std::copy_n(&all[first_of_law], c.size(), c.begin());
   if (is_power_) c[0] = fixed(0) ? c[0] * std::pow(v_unit_, c[1]) / D_unit_ : std::exp(c[0]);
-  return {*form_, c, D_unit_, v_unit_};
+  if (as_written_) return {*form_, c};
+  return Law::searched(*form_, c, D_unit_, v_unit_);
+}
+
+std::vector<double> Parameters::start(const std::vector<double>& c) const {
+  if (!as_written_) return c;
+  const Law law = Law::searched(*form_, c, D_unit_, v_unit_);
+  std::vector<double> free;
+  std::array<double, LawForm::most> unused;
+  for (std::size_t j = 0; j < law.size(); ++j)
+    if (!fixed(j)) free.push_back(law.in_SI(j, unused) / unit_[first_of_law + j]);
+  return free;
 }
 
 Body Parameters::body(const std::vector<double>& theta, Body given) const {
@@ -150,7 +169,8 @@ void Parameters::chain(double* to, std::size_t stride, double c0,
     if (fixed_[i]) continue;
     double by_theta = by[i] * unit_[i];
     if (is_power_ && i == first_of_law) by_theta *= c0;  // theta holds ln c0
-    if (i == first_of_law + 1 && fixed(0)) by_theta += c0 * std::log(v_unit_) * by[first_of_law];
+    if (is_power_ && i == first_of_law + 1 && fixed(0))
+      by_theta += c0 * std::log(v_unit_) * by[first_of_law];
     *std::exchange(to, to + stride) = by_theta;
   }
 }

@@ -56,8 +56,9 @@ class Parameters {
   Parameters(const FitOptions&, bool position, std::size_t runs, double v_ref, double x_ref);
   /// Of D = a v^b alone.
   Parameters(const FitOptions&, double v_unit);
-  /// The same parameters with another law, all of whose coefficients are free.
-  Parameters with(const LawForm&, double D_unit, double v_unit) const;
+  /// The same parameters with another law. If some of its coefficients are fixed, theta holds the
+  /// others as they are written; else those that suit a search.
+  Parameters with(const LawForm&, double D_unit, double v_unit, const FitOptions::Fixed&) const;
   /// The same parameters with one of Numbers fixed, such as the exponent of a v^b.
   Parameters with(std::size_t number, double value) const;
   /// The same parameters of so many runs.
@@ -99,6 +100,9 @@ class Parameters {
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
                             const std::vector<double>& x0, double slope = 0) const;
 
+  /// The elements of theta of these coefficients of a search in the given units.
+  std::vector<double> start(const std::vector<double>& c) const;
+
   /// Converts derivatives to the elements of theta, those of the run first and then the shared
   /// ones, and writes them `stride` apart. c0 is the first coefficient under theta.
   void chain(double* to, std::size_t stride, double c0, const Numbers& by) const noexcept;
@@ -111,6 +115,7 @@ class Parameters {
   std::array<std::optional<double>, most> fixed_ = {};  // coefficients of a v^b in SI units
   Numbers unit_ = {};                                   // of the elements of theta
   bool is_power_ = true;                                // the law is a v^b
+  bool as_written_ = false;                             // theta holds coefficients of the formula
   bool fit_wind_ = false;
   bool position_ = false;
   std::size_t runs_ = 0;

@@ -49,7 +49,7 @@ std::vector<OwnLaw> own_laws(const std::vector<std::optional<Fitted>>& own, doub
     const Matrix of_c = uncertainty_of(fit).covariance;
     const auto [law, by_c] = local_power(fit, v);
     const auto of_rounding = [&](std::size_t j) {  // in rows without noise
-      return fit.parameters().fixed(j) ? 0 : 1e-26;
+      return fit.law().power() && fit.parameters().fixed(j) ? 0 : 1e-26;
     };
     Symmetric C{of_rounding(0), 0, of_rounding(1)};
     for (std::size_t i = 0; i < by_c.size(); ++i)
@@ -132,7 +132,8 @@ std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& opt
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
   const auto way = [&](const OwnLaw& one) { return joint.model.runs()[one.run].way; };
   const bool of_one_way = std::ranges::adjacent_find(laws, std::not_equal_to(), way) == laws.end();
-  if (freedom < 1 || !options.fits_power() || (options.fit_slope && (options.a || of_one_way)))
+  if (freedom < 1 || !options.fits_power() ||
+      (options.fit_slope && (options.fixed[0] || of_one_way)))
     return {};
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
   std::vector<CommonError> common;
@@ -141,8 +142,8 @@ std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& opt
   const JointLaw mean = scattered_mean(laws, log_v, freedom, common);
   double& a = joint.coefficients[0].value;
   double& b = joint.coefficients[1].value;
-  if (!options.a) a = std::exp(mean.law.a);
-  if (!options.b) b = mean.law.b;
+  if (!options.fixed[0]) a = std::exp(mean.law.a);
+  if (!options.fixed[1]) b = mean.law.b;
   const Symmetric& C = mean.covariance;
   return Matrix{
       {a * a * C.aa, a * C.ab, 0}, {a * C.ab, C.bb, 0}, {0, 0, sigma_slope * sigma_slope}};
@@ -193,12 +194,13 @@ void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitte
 std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
                                       const FitOptions& options, Uncertainty& errors,
                                       Fitted& joint) {
-  if (runs.size() < 2 || errors.kind == Errors::none || (options.a && options.b)) return {};
+  if (runs.size() < 2 || errors.kind == Errors::none) return {};
+  const std::size_t free = joint.parameters().coefficients();
+  if (free == 0) return {};
   const auto own = own_fits(route, runs, options, joint);
   const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
-  const bool b_held = options.b || joint.coefficients.size() < 2;
-  Agreement found = compare(laws, !options.a + !b_held, joint.scene.size());
+  Agreement found = compare(laws, std::min<std::size_t>(free, 2), joint.scene.size());
   if (joint.is_roll()) compare_by_readings(found, own, joint);
   if (found.agree()) return found;
   errors = uncertainty_of(around_own(joint, own));

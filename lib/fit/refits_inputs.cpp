@@ -32,7 +32,9 @@ void move(Route route, Run& run, const NumberOfBody& number, double by) {
 /// deceleration (Eq. 11).
 bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& options,
               const NumberOfBody& number, const Estimate& value) {
-  if (options.a || options.fit_slope || number.value == &Body::slope) return false;
+  if (options.fit_slope || number.value == &Body::slope) return false;
+  for (std::size_t j = 0; j < options.law->coefficients.size(); ++j)
+    if (options.fixed[j] && options.law->coefficients[j].D > 0) return false;
   return std::ranges::all_of(runs, [&](const Run& run) {
     const ShiftOf by = contact_of(route, run, options);
     return number.of(by.body) == value && by.geometry == Geometry::approximate &&

@@ -53,17 +53,18 @@ std::vector<double> with_x0_held(const Fitted& fit, const std::vector<double>& s
 
 }  // namespace
 
-Fitted fit_beside(const Fitted& power, const LawForm& law) {
+Fitted fit_beside(const Fitted& power, const LawForm& law, const FitOptions::Fixed& fixed) {
   Fitted fit{};
   fit.noise = power.noise;
   const double v = power.fastest();
-  fit.model = power.model.with(power.parameters().with(law, power.law()(v), v));
+  fit.model = power.model.with(power.parameters().with(law, power.law()(v), v, fixed));
   std::vector<std::vector<double>> starts;
   for (const auto& c : law.starts) {
     std::vector<double> theta = power.minimum.theta;  // its v0, x0 and scene, without a wind
     const auto first = theta.end() - static_cast<std::ptrdiff_t>(power.parameters().shared());
     const auto end = theta.end() - static_cast<std::ptrdiff_t>(power.scene.size());
-    theta.insert(theta.erase(first, end), c.begin(), c.end());
+    const std::vector<double> start = fit.parameters().start(c);
+    theta.insert(theta.erase(first, end), start.begin(), start.end());
     if (!fit.parameters().fits(place_of_wind)) {
       starts.push_back(std::move(theta));
       continue;
@@ -85,8 +86,8 @@ namespace {
 
 /// Fits a v^b.
 Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& options) {
-  if (options.a && !(*options.a > 0))
-    fail("a = {} cannot be fixed: it must be positive", *options.a);
+  if (options.fixed[0] && !(*options.fixed[0] > 0))
+    fail("a = {} cannot be fixed: it must be positive", *options.fixed[0]);
   std::vector<Response> responses = responses_of(runs);
   const bool known = !responses.empty();
   if (options.fit_slope && route == Route::loglog)
@@ -116,10 +117,10 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
     fail("a straight line of logarithms is a law a v^b: fit D = {} on the route shift",
          options.law->formula);
   if (options.robust) fail("D = {} is fitted by squares only, not robustly", options.law->formula);
-  if (options.a || options.b)
-    fail("a and b are fixed in a law a v^b alone, not in D = {}", options.law->formula);
-  const Fitted power = fit_power(route, runs, options);
-  Fitted found = fit_beside(power, *options.law);
+  FitOptions of_power = options;
+  of_power.fixed = {};
+  const Fitted power = fit_power(route, runs, of_power);
+  Fitted found = fit_beside(power, *options.law, options.fixed);
   const char* const formula = options.law->formula;
   if (!was_found(found) && found.parameters().scene() == 0)
     fail<MotionError>("the rows do not determine D = {}", formula);

@@ -16,11 +16,11 @@ namespace rolling {
 /// standard errors.
 Fitted fit_route(Route, const std::vector<Run>&, const FitOptions&);
 
-/// The fit of another law to the rows, with the weights, of a fit of a v^b, in units in which
-/// shifts and speeds are of order one: the smallest minimum from the starts of the law, since near
-/// a law without a peak a law with a peak has another minimum than at its peak. The sum of squares
-/// is infinite where none is found.
-Fitted fit_beside(const Fitted& power, const LawForm&);
+/// The fit of another law, with these coefficients fixed, to the rows of a fit of a v^b with its
+/// weights, in units in which shifts and speeds are of order one: the smallest minimum from the
+/// starts of the law, since near a law without a peak a law with a peak has another minimum than at
+/// its peak. The sum of squares is infinite where none is found.
+Fitted fit_beside(const Fitted& power, const LawForm&, const FitOptions::Fixed&);
 
 /// The starting point for the fit of a roll.
 struct FirstGuess {

@@ -38,7 +38,7 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
       widest = std::max(widest, std::abs(std::log(v.back() / v_ref)));
     }
   std::vector<double> exponents;
-  if (options.b) exponents = {*options.b};
+  if (options.fixed[1]) exponents = {*options.fixed[1]};
   else
     for (double b = -4; b <= 8; b += 0.5 / widest) exponents.push_back(b);
   double least = INFINITY;
@@ -52,7 +52,7 @@ PowerLaw power_start(const std::vector<ObservedRun>& runs, double v_ref,
       mm += m * m;
       mD += m * D[i];
     }
-    const double height = options.a ? *options.a / unit.a : mD / mm;
+    const double height = options.fixed[0] ? *options.fixed[0] / unit.a : mD / mm;
     const double rss = height * (height * mm - 2 * mD);  // but for the squares of D
     if (height > 0 && rss < least) {
       least = rss;
@@ -154,8 +154,8 @@ std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std:
     }
     speeds.insert(speeds.end(), seen.t.begin(), seen.t.end());
   }
-  require_rows(speeds.size(), !options.a + !options.b, speeds.size());
-  if (!options.b && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
+  require_rows(speeds.size(), !options.fixed[0] + !options.fixed[1], speeds.size());
+  if (!options.fixed[1] && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
     fail("all speeds are equal: b cannot be determined");
   return runs;
 }

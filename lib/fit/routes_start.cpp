@@ -314,11 +314,11 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   // For a grid of laws: the shift at that speed is that of an even deceleration.
   std::vector<double> exponents{0.25, 0, 1, -0.5};
   if (on_road) exponents = {0.03, 0.5};
-  if (options.b) exponents = {*options.b};
+  if (options.fixed[1]) exponents = {*options.fixed[1]};
   std::vector<std::vector<double>> all;
   for (const double part : on_road ? std::vector{1.0, 0.4, 2.5} : std::vector{1.0})
     for (const double b : exponents) {
-      const double a = options.a.value_or(part * even.D * std::pow(even.v, -b));
+      const double a = options.fixed[0].value_or(part * even.D * std::pow(even.v, -b));
       all.push_back(q.theta({a, b}, even.v0, even.x0, even.slope));
     }
   const Model model(std::move(seen), q);
@@ -343,7 +343,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   // A body that turns on a slope would be held there by a law with b < 0, so that the sum of
   // squares has a wall at b = 0. A search that comes to the wall before the other parameters are
   // right does not leave it; with b held the other parameters come first.
-  if (std::ranges::any_of(thin, &Thinned::turns) && !options.b)
+  if (std::ranges::any_of(thin, &Thinned::turns) && !options.fixed[1])
     for (std::size_t k = 0; k < exponents.size(); ++k) {
       all.push_back(
           with_exponent_held(model, std::make_shared<const Noise>(), all[k], exponents[k]).theta);

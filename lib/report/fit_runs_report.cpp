@@ -312,9 +312,10 @@ class Remarks {
 
   /// What a check alone looks at.
   void check() {
-    if (r_.errors == Errors::none ||
-        (r_.sigma_a == 0 && r_.sigma_b == 0 && !(options_.a && options_.b)))
-      object(run_, "too few readings for standard uncertainties: fit more");
+    bool without = r_.errors == Errors::none;
+    for (std::size_t j = 0; j < r_.coefficients.size(); ++j)
+      without |= r_.coefficients[j].sigma == 0 && !options_.fixed[j];
+    if (without) object(run_, "too few readings for standard uncertainties: fit more");
     if (!noisy_) return;
     const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_);
     if (beginning && beginning->p <= levels::beginning / fits_)

@@ -243,9 +243,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   const Column truths = c.law > 0 ? c.c : Column{scene.a, scene.b};
   rolling::Body body = scene.body();
   body.slope = c.rises;
-  rolling::Roll truth(
-      body, rolling::Geometry::approximate,
-      c.law > 0 ? rolling::Law::as_written(*options.law, c.c) : rolling::Law(scene.law()), 0.5);
+  rolling::Roll truth(body, rolling::Geometry::approximate,
+                      c.law > 0 ? rolling::Law(*options.law, c.c) : rolling::Law(scene.law()), 0.5);
   options.robust = c.outliers > 0;
   options.fit_slope = c.down > 0;
   options.possible_filters = rolling::filters_of_sensors();

@@ -196,7 +196,7 @@ struct Contest {
 
 inline Contest contest(const Truth& truth, int runs, unsigned seed) {
   const rolling::LawForm& law = rolling::laws()[truth.law];
-  const auto made = rolling::Law::as_written(law, truth.c);
+  const auto made = rolling::Law(law, truth.c);
   Readings readings(path([&](double v) { return made.at(v).D; }, {}), {.name = ""}, seed);
   Contest all{std::vector<int>(rolling::laws().size()), std::vector<int>(rolling::laws().size())};
   for (int i = 0; i < runs; ++i) {

@@ -78,7 +78,7 @@ Harmonic harmonic(const Run& run) {
 
 FitResult fitted(const Run& run) {
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   return fit(Route::position, {run}, options);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("eccentricity: at a steady speed it is the periodogram over time", "[f
 TEST_CASE("eccentricity: shifts made of the positions tell what the positions tell", "[fit]") {
   const Run run = wobbling(e, 1e-5);
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto by_x = fitted(run).eccentricity,
              by_D = fit(Route::shift, {simulated::shifts(body, run.t, run.x, 5, "x")}, options)
                         .eccentricity;
@@ -121,7 +121,7 @@ TEST_CASE("eccentricity: the run of several that has it is named; less than a tu
           "[fit]") {
   const Run good = wobbling(0, 1e-5), bad = wobbling(e, 1e-5);
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto found = fit(Route::position, {good, bad, good}, options).eccentricity;
   REQUIRE(found);
   CHECK(found->run == 1);
@@ -133,7 +133,7 @@ TEST_CASE("eccentricity: the run of several that has it is named; less than a tu
 // Of 200 with a chance of 1 %, 9 or more come in 1 of 4000.
 TEST_CASE("eccentricity: the noise of each run is its own", "[fit]") {
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const Run quiet = wobbling(0, 1e-6);
   simulated::Noise noise(10);
   int found = 0;

@@ -174,7 +174,7 @@ TEST_CASE("readings of a clock that meet a roll by chance have the floor of roun
           run.x.push_back(q * static_cast<double>(i * (2 * rows - i)));
         }
         FitOptions options;
-        options.b = 0;
+        options.fixed[1] = 0;
         const FitResult found = fit(Route::position, {run}, options);
         // of v' = -g a/((K + 1) R) over the run: rounding of one reading shifts it by so much
         const double time = run.t.back() - run.t.front(),

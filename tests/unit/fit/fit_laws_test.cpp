@@ -2,6 +2,7 @@
 #include "fit/fit.h"
 
 #include "base/error.h"
+#include "motion/roll.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 
@@ -311,4 +312,43 @@ TEST_CASE("laws: singular noise gives no negative variance, and no correlation a
     }
   }
   CHECK(fitted > 30);
+}
+
+// Where the sum of squares is quadratic, a coefficient that is fixed at its value leaves the others
+// as they were, with the conditional covariance C_kk - C_kj^2/C_jj.
+TEST_CASE("laws: any coefficient can be fixed", "[fit]") {
+  const std::vector<double> truths[] = {
+      {}, {}, {0.1, 0.2}, {0.1, 0.1, 0.2}, {0.1, 0.4}, {0.1, 0.3, 0.7}, {0.1, 0.2, 0.3}};
+  for (std::size_t law = 2; law < laws().size(); ++law) {
+    FitOptions options;
+    options.law = &laws()[law];
+    Roll truth(unit, Geometry::approximate, Law(laws()[law], truths[law]), 1);
+    simulated::Noise noise(5);
+    Run run{};
+    run.body = unit;
+    for (double t = 0; t < truth.stop_time(); t += 0.02) {
+      run.t.push_back(t);
+      run.x.push_back(truth.at(t).x + noise(1e-5));
+    }
+    const FitResult free = fit(Route::position, {run}, options);
+    REQUIRE(free.errors == Errors::classical);
+    for (std::size_t j = 0; j < truths[law].size(); ++j) {
+      FitOptions held = options;
+      held.fixed[j] = free.coefficients[j].value;
+      const FitResult r = fit(Route::position, {run}, held);
+      const double freedom = static_cast<double>(free.freedom);
+      for (std::size_t k = 0; k < truths[law].size(); ++k) {
+        CAPTURE(laws()[law].formula, j, k);
+        const double sigma = free.coefficients[k].sigma;
+        CHECK(std::abs(r.coefficients[k].value - free.coefficients[k].value) < 1e-4 * sigma);
+        if (k == j) {
+          CHECK(r.coefficients[k].sigma == 0);
+          continue;
+        }
+        const double corr = free.correlations[std::max(j, k)][std::min(j, k)];
+        const double conditional = sigma * std::sqrt((1 - corr * corr) * freedom / (freedom + 1));
+        CHECK(r.coefficients[k].sigma == Approx(conditional).epsilon(1e-3));
+      }
+    }
+  }
 }

@@ -12,7 +12,7 @@ TEST_CASE("parameters: a run by itself has the law, v0 and x0 that it has among 
       given.slope = 7;
       FitOptions options;
       options.fit_slope = fit_slope;
-      if (hold_a) options.a = 2e-3;
+      if (hold_a) options.fixed[0] = 2e-3;
       const Parameters all(options, true, 3, 0.25, 2), one = all.of_one_run();
       auto theta = all.theta({2e-3, 0.3}, {0.4, 0.5, 0.6}, {1, 2, 3});
       REQUIRE(theta.size() == all.count());

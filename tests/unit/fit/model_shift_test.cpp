@@ -55,7 +55,7 @@ TEST_CASE("shift: no exponent that is held fits better than the one that is foun
     const double free = fit(Route::shift, {run}, {}).rms * std::sqrt(9.0);
     for (double b = -1; b < 2; b += 0.02) {
       FitOptions held;
-      held.b = b;
+      held.fixed[1] = b;
       CAPTURE(k, b);
       CHECK(fit(Route::shift, {run}, held).rms * std::sqrt(10.0) > free * (1 - 1e-9));
     }
@@ -92,7 +92,7 @@ TEST_CASE(
   for (double v : {-0.1, 0.0, 0.01, 0.2, 0.4, 0.8}) run.v.push_back(v), run.D.push_back(2 * v * v);
   run.D[4] = -0.1;
   FitOptions options;
-  options.b = 2;
+  options.fixed[1] = 2;
   options.min_speed = 0.1;
   const auto r = fit(Route::shift, {run}, options);
   CHECK(r.n == 3);
@@ -102,8 +102,8 @@ TEST_CASE(
   // one linear parameter: a = sum(v^2 D) / sum(v^4)
   const double expected = (0.04 * 0.08 - 0.16 * 0.1 + 0.64 * 1.28) / (0.0016 + 0.0256 + 0.4096);
   CHECK(std::abs(r.a / expected - 1) < 1e-13);
-  options.b.reset();
-  options.a = 2;
+  options.fixed[1].reset();
+  options.fixed[0] = 2;
   run.D[4] = 0.32;
   const auto held = fit(Route::shift, {run}, options);
   CHECK(std::abs(held.b - 2) < 1e-12);
@@ -112,7 +112,7 @@ TEST_CASE(
 
 TEST_CASE("shift: a held, the gradient by b vanishes", "[fit]") {
   FitOptions options;
-  options.a = 0.75;
+  options.fixed[0] = 0.75;
   const Run run = danwood();
   const double b = fit(Route::shift, {run}, options).b;
   double gradient = 0;

@@ -56,7 +56,7 @@ TEST_CASE("position: NIST's Misra1 sets are rolls under b = 1, 4/3, 3/2, 5/3", "
     run.x = misra_x;
     run.body = unit;
     FitOptions options;
-    options.b = c.b;
+    options.fixed[1] = c.b;
     options.x0 = 0;
     // x0 holds at the first row: one more at t = 0, which the model meets whatever its law.
     run.t.insert(run.t.begin(), 0);
@@ -99,12 +99,12 @@ TEST_CASE("trajectory: one law for two bodies and two starts; held parameters st
     CHECK(std::abs(r.v0.at(0).value - 0.5) < 1e-9);
     CHECK(std::abs(r.v0.at(1).value - 0.8) < 1e-9);
     FitOptions options;
-    options.a = 5.75e-4;
+    options.fixed[0] = 5.75e-4;
     const auto held = fit(route, {runs[0]}, options);
     CHECK(std::abs(held.b - 0.1) < 1e-9);
     CHECK(held.sigma_a == 0);
     options = {};
-    options.b = 0.1;
+    options.fixed[1] = 0.1;
     options.v0 = 0.5;
     CHECK(std::abs(fit(route, {runs[0]}, options).a / 5.75e-4 - 1) < 1e-9);
   }
@@ -321,7 +321,7 @@ TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better th
       const double parameters = route == Route::velocity ? 3 : 4;
       const auto rss = [&](std::optional<double> held) {
         FitOptions of = options;
-        of.b = held;
+        of.fixed[1] = held;
         const double rms = fit(route, {run}, of).rms;
         return rms * rms * (100 - parameters + (held ? 1 : 0));
       };

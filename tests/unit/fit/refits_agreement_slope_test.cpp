@@ -52,7 +52,7 @@ TEST_CASE("agreement: runs of which only the common slope is unknown have no law
           "[fit]") {
   simulated::Noise noise(45);
   FitOptions options;
-  options.a = felt.a, options.b = felt.b, options.v0 = 0.5, options.x0 = 0,
+  options.fixed[0] = felt.a, options.fixed[1] = felt.b, options.v0 = 0.5, options.x0 = 0,
   options.fit_slope = true;
   const std::vector<Run> runs{roll(felt, 1e-3, 1, noise), roll(felt, 1e-3, 1, noise)};
   const auto r = fit(Route::position, runs, options);
@@ -112,7 +112,7 @@ TEST_CASE("agreement: the error of the slope where b is held, by hand", "[fit]")
   simulated::Noise noise(47);
   FitOptions options;
   options.fit_slope = true;
-  options.b = 0.5;
+  options.fixed[1] = 0.5;
   std::vector<Run> runs;
   for (const auto& [by, way] : {std::pair(-0.05, 1), {0.05, 1}, {-0.03, -1}, {0.03, -1}})
     runs.push_back(roll({rubber.a * std::exp(by), 0.5}, 0, way, noise, 1e-5));

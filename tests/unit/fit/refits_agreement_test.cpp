@@ -53,7 +53,7 @@ TEST_CASE("agreement: the scatter of means, by hand", "[fit]") {
     for (double d : off) run.v.push_back(1 + std::abs(d)), run.D.push_back(mean + d);
   }
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto r = fit(Route::shift, runs, options);
   const double variance = 0.0258 / 6 / 7;  // of each mean
   REQUIRE(r.agreement);
@@ -139,7 +139,7 @@ TEST_CASE("agreement: uneven noise around the runs' own laws, by hand", "[fit]")
     }
   }
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto r = fit(Route::velocity, runs, options);
   REQUIRE_FALSE(r.agreement->agree());
   REQUIRE(r.errors == Errors::uneven);
@@ -180,16 +180,18 @@ TEST_CASE("agreement: the chance is that of the law with which the runs agree be
   for (int k = 0; k < 10; ++k) {
     const auto runs = short_rolls(8, noise);
     FitOptions options;
-    if (k % 2) options.b = felt.b;
+    if (k % 2) options.fixed[1] = felt.b;
     // The mean of c ln(1 + d/freedom) is the number of parameters.
-    const double freedom = options.b ? 3 : 2, c = options.b ? 1 / (2 * std::log(2.0) - 1) : 2;
+    const double freedom = options.fixed[1] ? 3 : 2,
+                 c = options.fixed[1] ? 1 / (2 * std::log(2.0) - 1) : 2;
     std::vector<FitResult> own;
     for (const Run& run : runs) own.push_back(fit(Route::position, {run}, options));
     const auto sum = [&](double log_D, double b) {
       double all = 0;
       for (const FitResult& r : own) {
-        const double off_b = options.b ? 0 : (b - r.b) / r.sigma_b,
-                     off_a = (log_D - (options.b ? *options.b : b) * log_v - std::log(r.a)) /
+        const double off_b = options.fixed[1] ? 0 : (b - r.b) / r.sigma_b,
+                     off_a = (log_D - (options.fixed[1] ? *options.fixed[1] : b) * log_v -
+                              std::log(r.a)) /
                              (r.sigma_a / r.a),
                      d = (off_a * off_a - 2 * r.corr * off_a * off_b + off_b * off_b) /
                          (1 - r.corr * r.corr);
@@ -213,7 +215,7 @@ TEST_CASE("agreement: of 200 times 40 short rolls under one law 1 % are said to 
   unsigned alarms = 0;
   for (unsigned k = 0; k < sets; ++k) {
     FitOptions options;
-    if (k % 2) options.b = felt.b;
+    if (k % 2) options.fixed[1] = felt.b;
     alarms += !fit(Route::position, short_rolls(40, noise), options).agreement->agree();
   }
   CHECK(alarms <= at_most(sets, 0.01));
@@ -359,7 +361,7 @@ TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
     runs.back().body = cylinder;
   }
   FitOptions options;
-  options.b = felt.b;
+  options.fixed[1] = felt.b;
   const auto r = fit(Route::loglog, runs, options);
   REQUIRE(r.agreement);
   CHECK_FALSE(r.agreement->agree());
@@ -375,7 +377,7 @@ TEST_CASE("agreement: by loglog, runs whose filters are known", "[fit]") {
 TEST_CASE("agreement: the exponents of runs where a is held", "[fit]") {
   simulated::Noise noise(42);
   FitOptions options;
-  options.a = rubber.a;
+  options.fixed[0] = rubber.a;
   std::vector<Run> runs;
   double mean = 0, squares = 0;
   std::vector<double> own;

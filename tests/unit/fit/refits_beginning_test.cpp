@@ -96,7 +96,7 @@ TEST_CASE("beginning: in joint fits a run is judged by its own law", "[fit]") {
 TEST_CASE("beginning: a run that has no parameters of its own is not tested", "[fit]") {
   simulated::Noise noise(12);
   FitOptions options;
-  options.a = 5.75e-4, options.b = 0.0244, options.v0 = 0.5, options.x0 = 0;
+  options.fixed[0] = 5.75e-4, options.fixed[1] = 0.0244, options.v0 = 0.5, options.x0 = 0;
   options.fit_slope = true;
   const std::vector<Run> runs{held(0.3, noise), held(0.3, noise)};
   CHECK_FALSE(disturbed_beginning(Route::position, runs, options));

@@ -127,7 +127,7 @@ TEST_CASE("input quantities: where runs disagree their shares are those of the m
 
 TEST_CASE("input quantities: what is held fixed has no error from them", "[fit]") {
   FitOptions options;
-  options.a = 1.87e-3;
+  options.fixed[0] = 1.87e-3;
   const auto r = fit(Route::position, {made_run(Route::position, 3)}, options);
   CHECK(r.sigma_a == 0);
   CHECK(r.corr == 0);

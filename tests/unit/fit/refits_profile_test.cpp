@@ -34,7 +34,7 @@ struct Count {
 
 Count count(const Scene& scene, std::size_t j, int runs) {
   const LawForm& form = laws()[scene.law];
-  Roll truth(scene.body, Geometry::approximate, Law::as_written(form, scene.c), scene.v0);
+  Roll truth(scene.body, Geometry::approximate, Law(form, scene.c), scene.v0);
   simulated::Noise noise(1);
   FitOptions options;
   options.law = &form;
@@ -112,7 +112,7 @@ TEST_CASE("visited intervals: an a with more than a seventh of error has no inte
     run.t = {0};
     run.body = cylinder;
     FitOptions options;
-    options.b = 0;
+    options.fixed[1] = 0;
     // D of rows that scatter by so much that the mean has this relative error.
     constexpr int n = 50;
     for (int i = 0; i < n; ++i) {

@@ -22,7 +22,7 @@ double lower_by_another_exponent(Route route, const Run& run) {
   double most = 0;
   for (double step = -2; step <= 2; step += 0.25) {
     FitOptions held;
-    held.b = found.coefficients[1].value + step * sigma;
+    held.fixed[1] = found.coefficients[1].value + step * sigma;
     const double rss = fit_route(route, {run}, held).minimum.rss;
     most = std::max(most, (1 - rss / found.minimum.rss) * n);
   }
@@ -70,7 +70,7 @@ TEST_CASE("cusps: of runs in both directions on a slope as well", "[fit][many]")
     const Fitted found = fit_route(Route::velocity, {up, down}, options);
     for (const double b : {-0.34, -0.32, -0.3, -0.28, -0.26}) {
       FitOptions held = options;
-      held.b = b;
+      held.fixed[1] = b;
       const double rss = fit_route(Route::velocity, {up, down}, held).minimum.rss;
       CAPTURE(k, b);
       CHECK(rss > found.minimum.rss * (1 - 0.1 / static_cast<double>(found.minimum.f.size())));

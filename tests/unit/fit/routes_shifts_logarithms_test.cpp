@@ -67,7 +67,7 @@ TEST_CASE("loglog: a held exponent leaves the mean of the logarithms", "[fit]") 
   run.v = {1, 2, 4};
   run.D = {3, 7, 11};
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   CHECK(std::abs(fit(Route::loglog, {run}, options).a / std::cbrt(3 * 7 * 11.0) - 1) < 1e-14);
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("loglog: a held coefficient, squares and bisquare alike", "[fit]") {
   for (int i = 1; i <= 40; ++i)
     run.v.push_back(0.05 * i), run.D.push_back(3 * std::pow(0.05 * i, 0.7));
   FitOptions options;
-  options.a = 3;
+  options.fixed[0] = 3;
   for (const bool robust : {false, true}) {
     options.robust = robust;
     CHECK(std::abs(fit(Route::loglog, {run}, options).b - 0.7) < 1e-12);

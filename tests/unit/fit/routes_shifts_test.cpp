@@ -53,9 +53,9 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
 
   FitOptions fast;
   fast.min_speed = 0.3;
-  fast.b = 1;  // with one speed alone b has to be held
+  fast.fixed[1] = 1;  // with one speed alone b has to be held
   for (const ObservedRun& run : observed(runs, fast, false)) CHECK(run.y == std::vector<double>{3});
-  fast.b.reset();
+  fast.fixed[1].reset();
   CHECK_THROWS_AS(observed(runs, fast, false), Error);
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
       for (const bool hold_b : {false, true}) {
         if (hold_a && hold_b) continue;
         FitOptions options;
-        if (hold_a) options.a = 4e-3;
-        if (hold_b) options.b = 0.3;
+        if (hold_a) options.fixed[0] = 4e-3;
+        if (hold_b) options.fixed[1] = 0.3;
         const std::vector<ObservedRun> rows = observed(runs, options, logarithms);
         const Parameters q = parameters_of_shifts(rows, options);
         const System system = system_of(Model(rows, q));

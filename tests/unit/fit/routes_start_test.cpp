@@ -134,8 +134,8 @@ TEST_CASE("first guess: speeds that the one law held has against them are refuse
   run.body = cylinder;
   for (int i = 0; i < 10; ++i) run.t.push_back(i), run.v.push_back(i < 2 ? -0.5 : 1);
   FitOptions held;
-  held.a = 0.03;
-  held.b = 0;
+  held.fixed[0] = 0.03;
+  held.fixed[1] = 0;
   CHECK_THROWS_WITH(fit(Route::velocity, {run}, held), "no law a v^b comes near the data");
   run.v[0] = 2;  // the body stops at once, as that law has it
   CHECK(fit(Route::velocity, {run}, held).v0[0].value > 0);

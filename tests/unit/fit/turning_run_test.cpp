@@ -130,7 +130,7 @@ TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the 
             return r.rms * r.rms * static_cast<double>(r.freedom);
           };
           for (const double held : {0.0, 0.05, 0.3}) {
-            options.b = held;
+            options.fixed[1] = held;
             CHECK(squares(found) < squares(fit(route, {run}, options)) * (1 + 1e-9));
           }
           off += std::abs(found.a - 5.75e-4) > 1.96 * found.sigma_a;

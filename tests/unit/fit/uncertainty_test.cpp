@@ -19,7 +19,7 @@ TEST_CASE("errors: HC3 of a mean of uneven noise is the sum of squares over (n -
     sum += run.D.back();
   }
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto r = fit(Route::shift, {run}, options);
   REQUIRE(r.errors == Errors::uneven);
   double squares = 0;
@@ -40,7 +40,7 @@ TEST_CASE("errors: two runs of different noise have the errors of both", "[fit]"
     sum += run.D.back();
   }
   FitOptions options;
-  options.b = 0;
+  options.fixed[1] = 0;
   const auto r = fit(Route::shift, runs, options);
   REQUIRE(r.errors == Errors::uneven);
   for (const Run& run : runs)

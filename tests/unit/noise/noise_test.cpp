@@ -36,7 +36,7 @@ TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
       run.column = Quantity::D, run.t = t, run.y = data;
       Fitted fit{.minimum = {},
                  .noise = noise,
-                 .model = Model(std::vector{run}, Parameters({}, 1).with(laws()[2], 1, 1))};
+                 .model = Model(std::vector{run}, Parameters({}, 1).with(laws()[2], 1, 1, {}))};
       fit.minimum = minimise(fit.system(), {0, 0});
       const Matrix Q = orthonormal(fit.system(), fit.minimum);
       const SeenNoise seen = seen_noise(fit, Q);
