@@ -46,8 +46,8 @@ int main(int argc, char** argv) {
     if (what.law == 0) add(coverage::CF);
     if (what.whole)
       for (const auto& scene : {coverage::SR, coverage::SF}) add(scene);
-    if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11") ||
-        what.rises > 0)
+    if (what.rises > 0) add(coverage::exponents[0]);
+    if (what.name == std::string("white x") || what.name == std::string("D from x, mean 11"))
       for (const auto& scene : coverage::exponents) add(scene);
   }
   std::printf(

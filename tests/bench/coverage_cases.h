@@ -103,9 +103,11 @@ inline Column since_the_row_before(const Column& x) {
   return v;
 }
 
-/// Speeds as the firmware of a sensor smooths them.
+/// Speeds as the firmware of a sensor smooths them, which has done so before the first row: it lags
+/// by 0.7/0.3 rows.
 inline Column exponential(const Column& v) {
-  Column smooth{v.front()};
+  const double lag = 0.7 / 0.3 / static_cast<double>(v.size());
+  Column smooth{v.front() + lag * (v.front() - v.back())};
   for (std::size_t i = 1; i < v.size(); ++i) smooth.push_back(0.7 * smooth.back() + 0.3 * v[i]);
   return smooth;
 }
