@@ -273,6 +273,10 @@ HTML
   done <<'LIST'
 CR The cylinder on rubber, with A = 1
 exact-CR The cylinder on rubber, with A of Eq. 8
+slope The cylinder on felt, up a slope of 5 mm/m to the stop
+turn The cylinder on felt, up a slope of 20 mm/m and back
+bowl A ball in a bowl of 1 m, which turns several times: one method, by its tolerance
+hills A car that coasts over hills of 2 m, likewise
 memory-1e-4 The cylinder on rubber, with a memory of 0.1 mm
 memory-1e-7 The cylinder on rubber, with a memory of 0.1 µm, which is stiff
 LIST

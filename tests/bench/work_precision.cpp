@@ -11,6 +11,7 @@
 
 #include "bench/bare_gsl.h"
 #include "bench/cvode.h"
+#include "contact/road.h"
 #include "motion/scene.h"
 
 using namespace rolling;
@@ -24,6 +25,34 @@ Scene scene(double a, double b, double K) {
   roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = PowerLaw{a, b},
   roll.v0 = 0.5;
   return roll;
+}
+
+/// h(x) every `step` from `from` to `to`.
+Road track(double from, double to, double step, double (*h)(double)) {
+  std::vector<double> x, y;
+  for (double at = from; at < to + step / 2; at += step) {
+    x.push_back(at);
+    y.push_back(h(at));
+  }
+  return {x, y};
+}
+
+/// A slope, a turning point on a slope, a ball in a bowl that turns five times, and a car on hills.
+void add_roads(std::vector<std::pair<std::string, Scene>>& all) {
+  for (const auto& [name, slope] : {std::pair("slope", 0.005), std::pair("turn", 0.02)}) {
+    all.emplace_back(name, scene(5.75e-4, 0.0244, 0.5));
+    all.back().second.body.slope = slope;
+  }
+  static const Road bowl = track(-0.3, 0.3, 0.01, [](double x) { return x * x / 2; });
+  static const Road hills = track(-5, 300, 5, [](double x) { return 2 * std::sin(x / 30); });
+  all.emplace_back("bowl", scene(5e-5, 0.1, 0.4));
+  all.back().second.body.R = 0.0127;
+  all.back().second.body.road = &bowl;
+  all.emplace_back("hills", scene(1, 1, 0.04));
+  all.back().second.body.R = 0.3;
+  all.back().second.body.road = &hills;
+  all.back().second.law = Law(laws()[4], std::vector{3e-3, 1e-5});
+  all.back().second.v0 = 20;
 }
 
 std::vector<std::pair<std::string, Scene>> problems() {
@@ -58,6 +87,7 @@ std::vector<std::pair<std::string, Scene>> problems() {
     all.emplace_back(fmt::format("table-{}", n), scene(1, 1, 0.5));
     all.back().second.law = TableLaw(v, D);
   }
+  add_roads(all);
   return all;
 }
 
@@ -101,16 +131,22 @@ int main(int argc, char** argv) {
     const auto rolled = [&, &scene = roll](const Method& method, double rtol) {
       return measure([&] { return start(scene, method, rtol); }, right);
     };
+    const bool road = roll.body.road != nullptr;
     if (best.kind != Method::solver) {
-      row(file, "rolling", best.kind == Method::closed ? "closed" : "exact", 0, rolled(best, 0));
+      for (const double rtol : road ? tolerances : std::vector<double>{0})
+        row(file, "rolling", best.kind == Method::closed ? "closed" : "exact", rtol,
+            rolled(best, rtol));
       fmt::print(file, "\n\n");
     }
-    for (const auto& [method, stepper] : ours) {
+    // No solver knows a height, and the bare ones know no slope.
+    for (const auto& [method, stepper] :
+         road ? std::vector<std::pair<std::string, Stepper>>() : ours) {
       for (const double rtol : tolerances)
         row(file, "rolling", method, rtol, rolled({Method::solver, stepper}, rtol));
       fmt::print(file, "\n\n");
     }
-    for (const bool odd : {false, true}) {
+    const bool level = roll.body.slope == 0 && !road;
+    for (const bool odd : level ? std::vector{false, true} : std::vector<bool>()) {
       if (!odd && roll.bulge.length > 0) continue;  // that law is odd by itself
       for (const auto& [method, type] : bare) {
         for (const double rtol : tolerances)
@@ -123,6 +159,7 @@ int main(int argc, char** argv) {
     }
 #ifdef HAVE_CVODE
     for (const auto& [method, kind] : {std::pair("adams", CV_ADAMS), std::pair("bdf", CV_BDF)}) {
+      if (!level) continue;
       for (const double rtol : tolerances)
         row(file, "CVODE", method, rtol,
             measure([&, &scene = roll,
