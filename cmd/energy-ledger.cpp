@@ -87,6 +87,10 @@ struct Task {
   std::string height;
   std::unique_ptr<const Road> road;
 
+  /// This quantity is appended.
+  bool has(std::string_view name) const {
+    return std::ranges::any_of(row, [&](const auto& quantity) { return quantity.name == name; });
+  }
   /// A mat is inclined.
   bool inclined() const {
     return std::ranges::any_of(laws, [](const LawOfFile& law) {
@@ -226,6 +230,50 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
   return without_closure ? 2 : 0;
 }
 
+/// The columns that the options ask for.
+void choose_columns(Tool& tool, Task& task, const std::string& columns) {
+  if (task.summary)
+    return tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
+  task.row = chosen(columns, quantities);
+  const auto is_chosen = [&](std::string_view name) { return task.has(name); };
+  if (const auto name = std::ranges::find_if(of_temperature, is_chosen);
+      name != std::end(of_temperature) && std::isnan(task.temperature))
+    fail("{} needs --temperature", *name);
+}
+
+/// The law, its body and the road of the options and the scene, and the columns that are read.
+Reader& read_task(Tool& tool, Task& task, const LawOptions& law) {
+  Body& body = task.given.body;
+  // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
+  for (const NumberOfBody& number : uncertain_numbers) body.*number.sigma = 0;
+  if (!task.height.empty())
+    tool.refuse({"slope"}, "does not go with --height, which has the slope");
+  task.road = read_road(tool, task.height);
+  body.road = task.road.get();
+  const bool with_errors = task.has("sigma_D");
+  if (with_errors && law.file.empty())
+    fail("sigma_D is that of a law: it needs --law and a row of fitpower");
+  // A law on the command line takes precedence over a column D, the law of a scene does not.
+  task.uses_law =
+      !law.file.empty() || tool.on_command_line("coefficient") || tool.on_command_line("exponent");
+  if (task.uses_law) task.laws = laws_in_wind(tool, law, task.given, with_errors);
+  Reader& in = tool.read({"t", "v", "D"});
+  task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
+  if (task.law_of_scene) task.laws = laws_in_wind(tool, law, task.given, with_errors);
+  task.uses_law |= task.law_of_scene;
+  if (!task.uses_law) {
+    tool.refuse({"wind"}, "goes with a law");
+    tool.need({"radius", "shape-factor"});
+    if (!in.find("D")) fail("neither a law (--law, or -a and -b) nor a column D (--use D=COLUMN)");
+    task.laws = {{.contact = task.given}};
+  }
+  task.t = in.need("t");
+  task.v = in.need("v");
+  task.x = body.road ? in.need("x") : task.v;
+  task.D = task.uses_law ? task.v : in.need("D");
+  return in;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -233,9 +281,8 @@ int main(int argc, char** argv) {
   Task task;
   LawOptions law;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
-  Body& body = task.given.body;
   tool.bodies(task.masses, task.list, {&Body::m});
-  tool.body(body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
+  tool.body(task.given.body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, law);
   tool.geometry(task.given.geometry);
@@ -255,48 +302,13 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     tool.checks = !std::isnan(task.tolerance);
     if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
-    if (task.summary)
-      tool.refuse({"columns"}, "does not go with --summary, which has its own columns");
-    else task.row = chosen(columns, quantities);
-    const auto is_chosen = [&](std::string_view name) {
-      return std::ranges::count(task.row, name,
-                                [](const auto& quantity) { return quantity.name; }) > 0;
-    };
-    if (const auto name = std::ranges::find_if(of_temperature, is_chosen);
-        name != std::end(of_temperature) && std::isnan(task.temperature))
-      fail("{} needs --temperature", *name);
+    choose_columns(tool, task, columns);
     if (task.temperature < 150)
       tool.warn(fmt::format("--temperature {} K: if that is degrees Celsius, write {}",
                             task.temperature, task.temperature + 273.15));
-    if (is_chosen("sigma_D") && law.file.empty())
-      fail("sigma_D is that of a law: it needs --law and a row of fitpower");
     tool.need({"mass"});
-    // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
-    for (const NumberOfBody& number : uncertain_numbers) body.*number.sigma = 0;
-    if (!task.height.empty())
-      tool.refuse({"slope"}, "does not go with --height, which has the slope");
-    task.road = read_road(tool, task.height);
-    body.road = task.road.get();
-    // A law on the command line takes precedence over a column D, the law of a scene does not.
-    task.uses_law = !law.file.empty() || tool.on_command_line("coefficient") ||
-                    tool.on_command_line("exponent");
-    const bool with_errors = is_chosen("sigma_D");
-    if (task.uses_law) task.laws = laws_in_wind(tool, law, task.given, with_errors);
-    Reader& in = tool.read({"t", "v", "D"});
-    task.law_of_scene = !task.uses_law && !std::isnan(law.power.a) && !in.find("D");
-    if (task.law_of_scene) task.laws = laws_in_wind(tool, law, task.given, with_errors);
-    task.uses_law |= task.law_of_scene;
-    if (!task.uses_law) {
-      tool.refuse({"wind"}, "goes with a law");
-      tool.need({"radius", "shape-factor"});
-      if (!in.find("D"))
-        fail("neither a law (--law, or -a and -b) nor a column D (--use D=COLUMN)");
-      task.laws = {{.contact = task.given}};
-    }
-    task.t = in.need("t");
-    task.v = in.need("v");
-    task.x = body.road ? in.need("x") : task.v;
-    task.D = task.uses_law ? task.v : in.need("D");
+    Reader& in = read_task(tool, task, law);
+    const auto is_chosen = [&](std::string_view name) { return task.has(name); };
     task.momenta = task.summary || tool.checks || std::ranges::any_of(of_momenta, is_chosen);
     if (task.summary) {
       write_names(tool.out, in, task.inclined());

@@ -43,7 +43,7 @@ std::map<std::string, std::optional<Route>> routes() {
   return all;
 }
 
-/// `settings` are those of --fix; the law that they are about may come later.
+/// `settings` are those of --fix.
 void add_options(Tool& tool, FitOptions& options, Bodies& bodies,
                  std::vector<std::string>& settings) {
   tool.bodies(bodies.all, bodies.list, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind},
@@ -211,23 +211,81 @@ std::string why_left_out(Route route, const FitOptions& options) {
   return why;
 }
 
+/// What the options and the scene describe.
+struct Task {
+  std::optional<Route> route;  ///< none without --route, and for `fits`
+  Bodies bodies = {};
+  FitOptions options = {};
+  std::vector<std::string> fixed = {};  ///< the settings of --fix; the law may come behind them
+  bool each = false;
+  bool with_report = false;
+};
+
+/// Prints the remarks on the fits, and their reports.
+void remark_on(Tool& tool, Route route, std::vector<FitOfRuns>& fits, const Task& task) {
+  const bool compares = task.with_report || tool.checks;
+  if (task.options.fit_x0) say_begins(tool, fits);
+  if (task.options.robust && compares)
+    tool.warn(
+        "neither other laws nor the beginning are looked at with --robust: this needs sums "
+        "of squares");
+  std::size_t left_out = 0;
+  for (FitOfRuns& one : fits) {
+    if (!one.result) continue;
+    left_out += one.result->left_out;
+    if (compares && !task.options.robust) one.laws = compare_laws(route, one.runs, task.options);
+    remark(tool, one, task.options, fits.size());
+    if (!task.with_report) continue;
+    if (task.each) tool.say(fmt::format("run {}, the report:", one.runs.front().name));
+    report(tool, one, *task.options.law);
+  }
+  tool.count_left_out(left_out, why_left_out(route, task.options));
+}
+
+/// Fits the runs of the input. Returns the exit status.
+int fit_input(Tool& tool, Task& task) {
+  FitOptions& options = task.options;
+  Reader& in = tool.read(order_of_columns(tool, task.route));
+  if (in.find("sigma_a") || in.find("sigma_d0"))
+    fail<InputError>("these are rows of fitpower: --route fits joins them");
+  Route route = task.route ? *task.route : default_route(in);
+  options.possible_filters = filters_of_sensors();
+  const bool trajectory = is_trajectory(route);
+  if (trajectory) tool.need({"radius", "shape-factor"});
+  if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
+  if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
+
+  const auto road = read_road(tool, task.bodies.height);
+  give_road(tool, task.bodies, road.get(), options, route);
+  const bool needs_x = road && route == Route::velocity && task.bodies.begins.empty();
+  options.fit_x0 = needs_x && !in.find("x");
+  auto runs = read_runs(tool, in, route, needs_x && !options.fit_x0);
+  doubt_wind(tool, options, task.each ? 1 : runs.size());
+  if (!task.each) warn_of_copies(tool, route, runs);
+  if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
+  task.bodies.give_to(runs);
+  if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
+  auto fits = fit_all(tool, route, std::move(runs), options, task.each);
+  const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
+  const auto first = std::ranges::find_if(fits, fitted);
+  if (first == fits.end()) return trouble;
+  write(tool.out, fits, *first, options, task.each);
+  remark_on(tool, route, fits, task);
+  return std::ranges::all_of(fits, fitted) ? 0 : trouble;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Tool tool("fitpower", "Fit the power law D = a v^b to columns.");
-  std::optional<Route> given_route;  // none for `fits`
-  Bodies bodies;
-  FitOptions options;
-  bool each = false;
-  bool with_report = false;
+  Task task;
   tool.choice<std::optional<Route>>(
-      "--route", given_route, routes(),
+      "--route", task.route, routes(),
       "fit D(v) (shift, loglog), v(t), x(t), or rows of fitpower (fits); without it shift if "
       "there is a D, else position if there is an x, else velocity");
-  std::vector<std::string> settings;
-  add_options(tool, options, bodies, settings);
-  tool.flag("--each", each, "fit each run by itself, a row for each");
-  tool.flag("--report", with_report,
+  add_options(tool, task.options, task.bodies, task.fixed);
+  tool.flag("--each", task.each, "fit each run by itself, a row for each");
+  tool.flag("--report", task.with_report,
             "print the parts of the uncertainties and the fits of other laws on standard error");
   tool.flag("--check", tool.checks,
             "exit with 1 if the runs disagree, or the start, the residuals or another law speak "
@@ -239,55 +297,10 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
-    for (const std::string& setting : settings) fix(options, setting);
-    if (tool.on_command_line("route") && !given_route) {
-      refuse_runs(tool);
-      fit_rows(tool, bodies);
-      return 0;
-    }
-    Reader& in = tool.read(order_of_columns(tool, given_route));
-    if (in.find("sigma_a") || in.find("sigma_d0"))
-      fail<InputError>("these are rows of fitpower: --route fits joins them");
-    Route route = given_route ? *given_route : default_route(in);
-    options.possible_filters = filters_of_sensors();
-    const bool trajectory = is_trajectory(route);
-    if (trajectory) tool.need({"radius", "shape-factor"});
-    if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
-    if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
-
-    const auto road = read_road(tool, bodies.height);
-    give_road(tool, bodies, road.get(), options, route);
-    const bool needs_x = road && route == Route::velocity && bodies.begins.empty();
-    options.fit_x0 = needs_x && !in.find("x");
-    auto runs = read_runs(tool, in, route, needs_x && !options.fit_x0);
-    doubt_wind(tool, options, each ? 1 : runs.size());
-    if (!each) warn_of_copies(tool, route, runs);
-    if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
-    bodies.give_to(runs);
-    if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
-    auto fits = fit_all(tool, route, std::move(runs), options, each);
-    const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
-    const auto first = std::ranges::find_if(fits, fitted);
-    if (first == fits.end()) return trouble;
-
-    write(tool.out, fits, *first, options, each);
-    if (options.fit_x0) say_begins(tool, fits);
-    const bool compares = with_report || tool.checks;
-    if (options.robust && compares)
-      tool.warn(
-          "neither other laws nor the beginning are looked at with --robust: this needs sums "
-          "of squares");
-    std::size_t left_out = 0;
-    for (FitOfRuns& one : fits) {
-      if (!one.result) continue;
-      left_out += one.result->left_out;
-      if (compares && !options.robust) one.laws = compare_laws(route, one.runs, options);
-      remark(tool, one, options, fits.size());
-      if (!with_report) continue;
-      if (each) tool.say(fmt::format("run {}, the report:", one.runs.front().name));
-      report(tool, one, *options.law);
-    }
-    tool.count_left_out(left_out, why_left_out(route, options));
-    return std::ranges::all_of(fits, fitted) ? 0 : trouble;
+    for (const std::string& setting : task.fixed) fix(task.options, setting);
+    if (!tool.on_command_line("route") || task.route) return fit_input(tool, task);
+    refuse_runs(tool);
+    fit_rows(tool, task.bodies);
+    return 0;
   });
 }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "cli/tool.h"
 #include "selection/selection.h"
@@ -132,18 +135,111 @@ void refuse_pairs(const Tool& tool, const SelectionOptions& select, const Signal
   if (select.coast && select.rolls) tool.refuse({"coast"}, "does not go with --rolls: give one");
 }
 
-/// Tells a window that is far longer than a run of so many rows and seconds, or holds one row.
-void tell_window(Tool& tool, const std::string& run, const Width& width, std::size_t rows,
-                 double seconds) {
-  const double n = static_cast<double>(rows);
-  const double step = seconds / (n - 1);
-  const double window =
-      width.seconds > 0 ? width.seconds : static_cast<double>(width.samples) * step;
-  if (window > 2 * (seconds + step))
-    tool.warn(run, fmt::format("the run lasts {:.4g} s, and the window more than twice as long",
-                               seconds));
-  if (width.seconds > 0 && window < step)
-    tool.warn(run, fmt::format("the window holds one row: one comes every {:.4g} s", step));
+/// What is done to the rows.
+struct Task {
+  std::string column;
+  SelectionOptions select;
+  SignalOptions options{by_name(smoothing_methods)["mean"]};
+  bool selects = false;       ///< and changes no number
+  bool tells_window = false;  ///< the width was asked for
+};
+
+/// A run on its way into the pipe: its rows are selected, each roll of --rolls becomes a run of its
+/// own, and the numbers of the column are smoothed.
+class RunOfPipe {
+ public:
+  RunOfPipe(const Task& task, RowPipe& pipe, std::string name)
+      : task_(task), pipe_(pipe), name_(std::move(name)), selection_(task.select),
+        smoother_(make_signal(task.options)) {}
+
+  void push(double t, double y) {
+    if (rows_++ == 0) begin_ = t;
+    end_ = t;
+    if (task_.select.all()) pipe_.put(smoother_->push(t, y));
+    else take(selection_.push(t, y));
+  }
+  void finish(Tool& tool, Told& told) {
+    take(selection_.finish());
+    told.add(selection_, name_, taken_);
+    pipe_.put(smoother_->finish());
+    if (task_.tells_window) tell_window(tool);
+  }
+
+ private:
+  void take(std::span<const Sample> samples) {
+    for (const Sample& s : samples) {
+      if (std::isnan(s.y)) {
+        pipe_.drop(taken_);
+      } else {
+        begin_roll(s.t);
+        if (task_.selects) pipe_.put(s.y);
+        else pipe_.put(smoother_->push(s.t, s.y));
+      }
+      ++taken_;
+    }
+  }
+  /// The smoothing of a roll begins anew.
+  void begin_roll(double t) {
+    const auto& rolls = selection_.rolls();
+    if (!task_.select.rolls || roll_ == rolls.size() || t < rolls[roll_].kept.from) return;
+    pipe_.put(smoother_->finish());
+    smoother_ = make_signal(task_.options);
+    ++roll_;
+    pipe_.split(taken_, fmt::format("{} roll {} of {}", name_, roll_, rolls.size()));
+  }
+  /// Tells a window that is far longer than the run, or holds one row.
+  void tell_window(Tool& tool) const {
+    const Width& width = task_.options.width;
+    const double seconds = end_ - begin_;
+    const double step = seconds / (static_cast<double>(rows_) - 1);
+    const double window =
+        width.seconds > 0 ? width.seconds : static_cast<double>(width.samples) * step;
+    if (window > 2 * (seconds + step))
+      tool.warn(name_, fmt::format("the run lasts {:.4g} s, and the window more than twice as long",
+                                   seconds));
+    if (width.seconds > 0 && window < step)
+      tool.warn(name_, fmt::format("the window holds one row: one comes every {:.4g} s", step));
+  }
+
+  const Task& task_;
+  RowPipe& pipe_;
+  std::string name_;
+  Selection selection_;
+  std::unique_ptr<Signal> smoother_;
+  std::size_t rows_ = 0;   // that were pushed
+  std::size_t taken_ = 0;  // whose selection is known
+  std::size_t roll_ = 0;
+  double begin_ = 0, end_ = 0;
+};
+
+/// Reads the runs, and writes them.
+void smooth(Tool& tool, Task& task) {
+  Reader& in = tool.read({"t", "v"});
+  const auto t = in.need("t");
+  if (task.column.empty()) task.column = default_column(in, t, task.selects);
+  const auto y = in.need(task.column);
+  const std::string name = in.columns()[in.column_of(y)].name;
+  if (in.column_of(y) == in.column_of(t)) fail("t is the time: -c names another column, x or v");
+  task.select.positions = name == "x";
+  require_motion(task.select, name);
+  RowPipe pipe(in, tool.out, history(name, in.equal_times(), task.select, task.options));
+  pipe.replace(y);
+  double first = INFINITY;
+  double last = -INFINITY;
+  pipe.say_why_none([&] {
+    return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
+  });
+  Told told(tool, task.select.rolls);
+  while (pipe.next_run()) {
+    RunOfPipe run(task, pipe, in.run_name());
+    while (pipe.next()) {
+      first = std::min(first, pipe[t]);
+      last = std::max(last, pipe[t]);
+      run.push(pipe[t], pipe[y]);
+    }
+    run.finish(tool, told);
+  }
+  told.say();
 }
 
 }  // namespace
@@ -152,78 +248,20 @@ int main(int argc, char** argv) {
   Tool tool("smooth",
             "Replace a column by its mean over a moving window, or smooth it otherwise; select its "
             "rows.");
-  std::string column;
-  SelectionOptions select;
-  SignalOptions options{by_name(smoothing_methods)["mean"]};
-  add_options(tool, column, options, select);
+  Task task;
+  add_options(tool, task.column, task.options, task.select);
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    refuse_pairs(tool, select, options);
-    select.width = options.width;
-    const bool all = select.all();
-    const bool smooths = tool.given("width") || tool.given("seconds") || tool.given("method");
-    const bool selects = !smooths && (!all || tool.given("equal-times"));  // and changes no number
-    if (selects) options.width.samples = 1;
-    make_signal(options);  // refuses wrong options before anything is read
-    Reader& in = tool.read({"t", "v"});
-    const auto t = in.need("t");
-    if (column.empty()) column = default_column(in, t, selects);
-    const auto y = in.need(column);
-    const std::string name = in.columns()[in.column_of(y)].name;
-    if (in.column_of(y) == in.column_of(t)) fail("t is the time: -c names another column, x or v");
-    select.positions = name == "x";
-    require_motion(select, name);
-    RowPipe pipe(in, tool.out, history(name, in.equal_times(), select, options));
-    pipe.replace(y);
-    double first = INFINITY;
-    double last = -INFINITY;
-    pipe.say_why_none([&] {
-      return fmt::format(": the times of the file go from {:.12g} to {:.12g} s", first, last);
-    });
-    Told selected(tool, select.rolls);
-    while (pipe.next_run()) {
-      Selection selection(select);
-      auto smoother = make_signal(options);
-      std::size_t row = 0;
-      std::size_t roll = 0;
-      std::size_t rows = 0;
-      double begin = 0;
-      double end = 0;
-      // A roll is a run of its own: its smoothing begins anew.
-      const auto begin_roll = [&](double time) {
-        const auto& rolls = selection.rolls();
-        if (!select.rolls || roll == rolls.size() || time < rolls[roll].kept.from) return;
-        pipe.put(smoother->finish());
-        smoother = make_signal(options);
-        ++roll;
-        pipe.split(row, fmt::format("{} roll {} of {}", in.run_name(), roll, rolls.size()));
-      };
-      const auto take = [&](std::span<const Sample> samples) {
-        for (const Sample& s : samples) {
-          if (!std::isnan(s.y)) begin_roll(s.t);
-          if (std::isnan(s.y)) pipe.drop(row);
-          else if (selects) pipe.put(s.y);
-          else pipe.put(smoother->push(s.t, s.y));
-          ++row;
-        }
-      };
-      while (pipe.next()) {
-        end = pipe[t];
-        if (rows++ == 0) begin = end;
-        first = std::min(first, end);
-        last = std::max(last, end);
-        if (all) pipe.put(smoother->push(pipe[t], pipe[y]));
-        else take(selection.push(pipe[t], pipe[y]));
-      }
-      take(selection.finish());
-      selected.add(selection, in.run_name(), row);
-      pipe.put(smoother->finish());
-      if (tool.given("width") || tool.given("seconds"))
-        tell_window(tool, in.run_name(), options.width, rows, end - begin);
-    }
-    selected.say();
+    refuse_pairs(tool, task.select, task.options);
+    task.select.width = task.options.width;
+    task.tells_window = tool.given("width") || tool.given("seconds");
+    const bool smooths = task.tells_window || tool.given("method");
+    task.selects = !smooths && (!task.select.all() || tool.given("equal-times"));
+    if (task.selects) task.options.width.samples = 1;
+    make_signal(task.options);  // refuses wrong options before anything is read
+    smooth(tool, task);
     return 0;
   });
 }

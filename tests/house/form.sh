@@ -64,9 +64,7 @@ done < <(find cmd lib tests -type f \( -name '*.cpp' -o -name '*.h' -o -name '*.
 count=0
 while read -r length place; do
   count=$((count + 1))
-  most=60
-  case $place in cmd/*) most=80 ;; esac
-  [ "$length" -le "$most" ] || complain "$place: a function of $length lines; at most $most"
+  [ "$length" -le 60 ] || complain "$place: a function of $length lines; at most 60"
 done < <(functions cmd/*.cpp lib/*/*)
 [ "$count" -gt 300 ] || complain "only $count functions were found"
 
