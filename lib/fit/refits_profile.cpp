@@ -64,12 +64,13 @@ double bend(const FewRows& rows, const std::vector<double>& minimum,
 }
 
 /// The profile of one number of a fit: how the sum of squares rises if the number is held at
-/// another value and all parameters are fitted again.
+/// another value and all parameters are fitted again. Where they would go behind the wall of b = 0,
+/// they go along it.
 class Profile {
  public:
-  /// `sigma` is the standard error of number j, `wall` the minimum_at_wall().
-  Profile(const Fitted& fit, std::size_t j, double sigma, std::optional<Minimum> wall = {})
-      : fit_(fit), j_(j), best_(fit.numbers()[j]), sigma_(sigma), wall_(std::move(wall)) {
+  /// `sigma` is the standard error of number j; `wall` is the fit with b = 0, if that is a wall.
+  Profile(const Fitted& fit, std::size_t j, double sigma, const Fitted* wall = nullptr)
+      : fit_(fit), wall_(wall), j_(j), best_(fit.numbers()[j]), sigma_(sigma) {
     std::vector<double> g = best_.gradient;
     fit.minimum.R.solve_transposed(0, g);
     variance_ = dot(g, g);
@@ -79,49 +80,64 @@ class Profile {
 
   /// A place of the profile.
   struct Visit {
-    double to = 0;         ///< the change of the number that was asked for
-    double change = 0;     ///< of the number
-    double distance = 0;   ///< in standard errors, as the sum of squares shows it; infinite if no
-                           ///< fit was found
-    bool at_wall = false;  ///< there is no roll beyond
+    const Fitted* fit;    ///< whose parameters those of the minimum are
+    double to = 0;        ///< the change of the number that was asked for
+    double change = 0;    ///< of the number
+    double distance = 0;  ///< in standard errors, as the sum of squares shows it; infinite if no
+                          ///< fit was found
+    bool is_end = false;  ///< there is no roll beyond
     Minimum minimum = {};
   };
-  Visit start() const { return {0, 0, 0, false, fit_.minimum}; }
-  /// The number at another theta.
-  FittedNumber at(const std::vector<double>& theta) const {
+  Visit start() const { return {&fit_, 0, 0, 0, false, fit_.minimum}; }
+  /// The number at another theta of one of the two fits.
+  FittedNumber at(const Fitted& fit, const std::vector<double>& theta) const {
     // In three statements: where memory fails in a later part of an aggregate, g++ 12 and 14
     // destroy a part twice.
     Fitted there;
     there.minimum.theta = theta;
-    there.model = fit_.model;
+    there.model = fit.model;
     read_off(there);
     return there.numbers()[j_];
   }
-  /// The step from a place to where the number would have changed by this if the model were linear.
+  /// theta where the number would have changed by this if the model were linear from this place on.
   std::vector<double> ahead(const Visit& from, double change) const {
-    return from.minimum.R.step_that_changes(at(from.minimum.theta).gradient, change - from.change);
+    const Minimum& here = from.minimum;
+    return moved(here.theta, here.R.step_that_changes(at(*from.fit, here.theta).gradient,
+                                                      change - from.change));
   }
-  /// Fits with the number changed by this, as far as it can. The search starts at a place nearby,
-  /// and ahead of it, unless that is behind the wall.
+  /// Fits with the number changed by this, as far as it can: the better one of the fits on this
+  /// side of the wall and on it. The search starts at a place nearby, and ahead of it.
   Visit visit(double to, const Visit& from) const {
+    if (!wall_) return searched(to, from);
+    const Visit wall = at_wall();
+    const bool is_b = j_ == 1;
+    if (from.fit == wall_) return is_b ? wall : searched(to, from);
+    const bool behind = fit_.parameters().law(ahead(from, to)).power()->b < 0;
+    if (is_b && behind && std::abs(wall.change) < std::abs(to)) return wall;
+    if (is_b) return searched(to, from);
+    Visit along = searched(to, wall);
+    if (behind) return along;
+    Visit before = searched(to, from);
+    return along.minimum.rss < before.minimum.rss ? along : before;
+  }
+
+ private:
+  Visit at_wall() const {
+    const double last = wall_->numbers()[j_].value - best_.value;
+    return {wall_, last, last, distance(wall_->minimum.rss), true, wall_->minimum};
+  }
+  Visit searched(double to, const Visit& from) const {
     const double change = to * (1 + 1 / (pull * pull));  // as the other rows pull it back
-    const std::vector<double> start = moved(from.minimum.theta, ahead(from, change));
-    if (wall_ && fit_.parameters().law(start).power()->b < 0) {
-      const double last = at(wall_->theta).value - best_.value;
-      if (std::abs(last) < std::abs(to)) return {last, last, distance(wall_->rss), true, *wall_};
-    }
-    const System system = held(best_.value + change);
-    Visit there{to, to, INFINITY};
-    improve(there.minimum, system, start);
+    const System system = held(*from.fit, best_.value + change);
+    Visit there{from.fit, to, to, INFINITY};
+    improve(there.minimum, system, ahead(from, change));
     improve(there.minimum, system, from.minimum.theta);
     if (!std::isfinite(there.minimum.rss)) return there;
-    there.change = at(there.minimum.theta).value - best_.value;
+    there.change = at(*from.fit, there.minimum.theta).value - best_.value;
     const double row = weight() * (there.change - change);
     there.distance = distance(there.minimum.rss - row * row);
     return there;
   }
-
- private:
   double distance(double squares) const {
     return std::sqrt(std::max(squares - fit_.minimum.rss, 0.0) * variance_) / sigma_;
   }
@@ -130,16 +146,16 @@ class Profile {
 
   /// The system with one more row of the first run, which pulls the number to a value. A larger
   /// weight would make a narrow valley of it, in which a search is slow.
-  System held(double value) const {
-    System system = fit_.system();
+  System held(const Fitted& fit, double value) const {
+    System system = fit.system();
     ++system.runs.front();
     system.rough = true;
-    system.evaluate = [this, value, rows = fit_.system()](const std::vector<double>& theta,
-                                                          const TakeRows& take) {
+    system.evaluate = [this, value, of = &fit, rows = fit.system()](
+                          const std::vector<double>& theta, const TakeRows& take) {
       rows.evaluate(theta, [&](std::size_t run, std::span<double> f, std::span<double> J) {
         take(run, f, J);
         if (run > 0) return;
-        FittedNumber number = at(theta);
+        FittedNumber number = at(*of, theta);
         double off = weight() * (number.value - value);
         for (double& by : number.gradient) by *= weight();
         take(run, {&off, 1}, number.gradient);
@@ -149,10 +165,10 @@ class Profile {
   }
 
   const Fitted& fit_;
+  const Fitted* wall_;
   std::size_t j_;
   FittedNumber best_;
   double sigma_;
-  std::optional<Minimum> wall_;
   double variance_;  // of the number, for residuals of variance one
 };
 
@@ -165,9 +181,11 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
   const Profile::Visit start = profile.start();
   const std::vector<double>& theta = start.minimum.theta;
   for (const double change : {-normal * profile.sigma(), normal * profile.sigma()}) try {
-      const std::vector<double> step = profile.ahead(start, change);
+      const std::vector<double> there = profile.ahead(start, change);
+      std::vector<double> step = there;
+      std::ranges::transform(there, theta, step.begin(), std::minus());
       if (relative_size(step, theta) < rounding) continue;
-      const double off = (profile.at(moved(theta, step)).value - profile.value()) / change - 1;
+      const double off = (profile.at(*start.fit, there).value - profile.value()) / change - 1;
       if (!(std::abs(off) < levels::bent && bend(rows, theta, step) < levels::bent)) return true;
     } catch (const Error&) {  // there is no roll
       return true;
@@ -177,7 +195,7 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
 
 /// True if the number can change so far, and the sum of squares has risen as it should.
 bool as_expected(const Profile& profile, const Profile::Visit& at) {
-  if (at.at_wall) return false;
+  if (at.is_end) return false;
   const double rise = std::pow(at.distance * profile.sigma() / at.change, 2);
   return rise < levels::rise && rise > 1 / levels::rise;
 }
@@ -194,7 +212,7 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
   const double widest = 10 * normal * profile.sigma();
   for (int i = 0; i < most && !is_end(far); ++i) {
     const bool hardly_moves = std::abs(far.change) < std::abs(far.to) / 10;
-    if (far.distance < normal && (far.at_wall || hardly_moves)) return far.change;
+    if (far.distance < normal && (far.is_end || hardly_moves)) return far.change;
     if (far.distance < normal && std::abs(far.to) > widest) break;
     double to = near.to == 0 ? far.to / 8 : (near.to + far.to) / 2;
     const bool beyond = far.distance > normal;
@@ -214,17 +232,23 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
   return far.distance < normal ? INFINITY : near.change;
 }
 
-/// The minimum_at_wall(), unless the body rolls alike just behind it: a mat that holds it at rest
-/// holds it for b < 0 as well.
-std::optional<Minimum> end_at_wall(const Fitted& fit) {
-  auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
-  if (!wall) return wall;
+/// The fit with b = 0, if this is a wall. It is none where the body rolls alike just behind it: a
+/// mat that holds it at rest holds it for b < 0 as well.
+std::optional<Fitted> fit_at_wall(const Fitted& fit) {
+  const auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
+  if (!wall) return {};
   const Parameters& q = fit.parameters();
-  std::vector<double> behind = wall->theta;
-  behind[q.count() - q.scene() - 1] = -1e-6;
+  const std::size_t exponent = q.count() - q.scene() - 1;
+  std::vector<double> theta = wall->theta;
+  theta[exponent] = -1e-6;
   const double variance = fit.minimum.rss / static_cast<double>(fit.degrees_left());
-  if (tried(fit.system(), std::move(behind)).rss < wall->rss + variance) return {};
-  return wall;
+  if (tried(fit.system(), theta).rss < wall->rss + variance) return {};
+  Fitted held = fit;
+  held.model = fit.model.with(q.with(q.first_of_law + 1, 0));
+  theta.erase(theta.begin() + static_cast<std::ptrdiff_t>(exponent));
+  held.minimum = evaluated(held.system(), std::move(theta));
+  read_off(held);
+  return held;
 }
 
 }  // namespace
@@ -241,9 +265,9 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
   }
   if (doubtful.empty()) return found;
   const Fitted fit = of_means(of_all, options);
-  const auto wall = end_at_wall(fit);
+  const auto wall = fit_at_wall(fit);
   for (const std::size_t j : doubtful) {
-    const Profile profile(fit, j, std::sqrt(noise.covariance[j][j]), wall);
+    const Profile profile(fit, j, std::sqrt(noise.covariance[j][j]), wall ? &*wall : nullptr);
     const double change = normal * profile.sigma();
     Profile::Visit below = profile.visit(-change, profile.start());
     Profile::Visit above = profile.visit(change, profile.start());

@@ -48,7 +48,7 @@ Minimum search(const Model&, const std::shared_ptr<const Noise>&,
                const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// The smallest sum of squares with this exponent of a v^b held, from a theta in which it is free,
-/// and its place as such a theta; infinite where the search finds none.
+/// and its place as such a theta, without f and R; infinite where the search finds none.
 Minimum with_exponent_held(const Model&, const std::shared_ptr<const Noise>&,
                            std::vector<double> theta, double b);
 

@@ -95,7 +95,7 @@ Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise
   Minimum found{theta};
   improve(found, system_of(rolls.with(q.with(q.first_of_law + 1, b)), noise), theta);
   found.theta.insert(found.theta.begin() + exponent, b);
-  return found;
+  return {std::move(found.theta), {}, {}, found.rss};  // R has no column for b
 }
 
 std::optional<Minimum> minimum_at_wall(const Model& rolls,

@@ -104,6 +104,33 @@ TEST_CASE("visited intervals: a mat that holds the body is no wall at b = 0", "[
   }
 }
 
+// Up a slope and back, with b = 0: b cannot be less, but a and the slope can, with b = 0.
+TEST_CASE("visited intervals: at the wall of b the others go on along it", "[fit]") {
+  Body up{1, 0.02, 0.4};
+  up.slope = 0.03;
+  Roll truth(up, Geometry::approximate, PowerLaw{1e-4, 0}, 0.5);
+  simulated::Noise noise(11);
+  FitOptions options;
+  options.fit_slope = true;
+  for (int k = 0; k < 5; ++k) {
+    Run run;
+    run.body = {1, 0.02, 0.4};
+    for (int i = 0; i < 120; ++i) {
+      run.t.push_back(0.02 * i);
+      run.x.push_back(truth.at(run.t.back()).x + noise(4e-4));
+    }
+    const FitResult r = fit(Route::position, {run}, options);
+    const Estimate numbers[] = {r.coefficients[0], {}, *r.scene[0]};
+    for (const Interval& found : r.not_visited) {
+      CAPTURE(k, found.number, found.lower, found.upper);
+      if (found.number == 1) continue;
+      const Estimate& x = numbers[found.number];
+      CHECK(found.lower < x.value - x.sigma);
+      CHECK(found.upper > x.value + x.sigma);
+    }
+  }
+}
+
 // If ln a is normal with a standard deviation of s, the sum of squares at a(1 +- 1.96 s) has risen
 // by (ln(1 +- 1.96 s)/s)^2: at the lower end by more than 1.35 times 3.84 from s = 0.146 on.
 TEST_CASE("visited intervals: an a with more than a seventh of error has no interval", "[fit]") {
