@@ -190,10 +190,20 @@ double way_before_turn(bool position, const std::vector<double>& t,
   const double end = smooth.back();
   const double up = std::min(greatest - begin, greatest - end);
   const double down = std::min(begin - least, end - least);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
-  const double errors = position ? 10 : 3 * std::sqrt(static_cast<double>(x.size()));  // of a sum
-  const double step = position ? grid_of(rows) : 0;  // a body at rest may show two readings
-  const double limit = 0.002 * (greatest - least) + 2 * step + errors * deviation(x);
+  double limit = 0.002 * (greatest - least);
+  if (position) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= smooth[i];
+    limit += 2 * grid_of(rows) + 10 * deviation(std::move(x));  // at rest it may show two readings
+  } else if (rows.size() > 2) {
+    // The way is a sum over the rows, and so is its error: that of a speed is the root of a sixth
+    // of the variance of the second differences.
+    std::vector<double> bends;
+    for (std::size_t i = 2; i < rows.size(); ++i)
+      bends.push_back(rows[i] - 2 * rows[i - 1] + rows[i - 2]);
+    const double n = static_cast<double>(rows.size());
+    const double step = (t.back() - t.front()) / (n - 1);
+    limit += 3 * std::sqrt(n / 6) * step * deviation(std::move(bends));
+  }
   return std::max(up, down) > limit ? std::copysign(1.0, up - down) : 0;
 }
 

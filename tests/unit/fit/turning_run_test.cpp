@@ -2,10 +2,13 @@
 // One run up a slope, over its turning point and back.
 #include "fit/fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "fit/model.h"
 #include "motion/roll.h"
 #include "unit/catch.h"
 #include "unit/many.h"
@@ -138,4 +141,30 @@ TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the 
         }
   CHECK(fits == (all ? 32 : 16));
   CHECK(off <= at_most(fits, 0.05));
+}
+
+// The way of noisy speeds at rest is a random walk.
+TEST_CASE("turning run: a rest of noisy speeds is no way back, a slow way back is one", "[fit]") {
+  Body mat{1, 0.04, 0.5};
+  Body up = mat;
+  up.slope = 0.02;
+  const PowerLaw rubber{1.87e-3, 0.215};
+  Roll rests(mat, Geometry::approximate, rubber, 0.5);
+  Roll returns(up, Geometry::approximate, rubber, 0.5);
+  simulated::Noise noise(4);
+  for (const int n : {90, 600})
+    for (int k = 0; k < 40; ++k) {
+      std::vector<double> t;
+      std::vector<double> at_rest;
+      std::vector<double> coming_back;
+      for (int i = 0; i < n; ++i) {
+        t.push_back(0.04 * i);
+        const double error = noise(5e-3);
+        at_rest.push_back(rests.at(t.back()).v + error);
+        coming_back.push_back(returns.at(std::min(4.4, t.back())).v + error);
+      }
+      CAPTURE(n, k);
+      CHECK(way_before_turn(false, t, at_rest) == 0);
+      CHECK(way_before_turn(false, t, coming_back) == 1);
+    }
 }
