@@ -209,16 +209,19 @@ double way_to_the_stop(Motion& motion, double end) {
   return motion.position() - begin;
 }
 
-/// Says when and where the body comes to rest, or turns, and how well the law tells it.
-void say_stop(Tool& tool, const Task& task, Motion& motion, double end) {
-  const double since = end - task.t0;
-  motion.seek(since);
-  const Roll::Point at = motion.roll()->at(since);
+/// Says when and where the body comes to rest, or turns, and how well the law tells it, if the rows
+/// up to `last` come near: there v may be 0, and sigma_v too, before the body rests.
+void say_stop(Tool& tool, const Task& task, Motion& motion, double last) {
+  const double stop = motion.stop_time();
+  if (!std::isfinite(stop)) return;
   const LawOfFile& law = task.law_of_file;
+  const double sigma = law.sigma(motion.roll()->stop_time_by_c());
+  if (last - task.t0 < stop - 2 * sigma) return;
+  motion.seek(stop);
+  const Roll::Point at = motion.roll()->at(stop);
   tool.warn(fmt::format("the body {} at t = {:.7g} +- {:.2g} s, x = {:.7g} +- {:.2g} m",
-                        motion.roll()->turns() ? "turns" : "stops", end,
-                        law.sigma(motion.roll()->stop_time_by_c()), task.way * motion.position(),
-                        law.sigma(at.x_c)));
+                        motion.roll()->turns() ? "turns" : "stops", task.t0 + stop, sigma,
+                        task.way * motion.position(), law.sigma(at.x_c)));
 }
 
 void add_options(Tool& tool, Task& task) {
@@ -275,9 +278,11 @@ void write_row(Output& out, const Task& task, double t, Motion& motion) {
   out.end_line();
 }
 
-/// Rows at the times in the column t of a file; each run of the file starts the roll anew.
-void write_at(Output& out, const Task& task, Reader& in) {
+/// Rows at the times in the column t of a file; each run of the file starts the roll anew. Returns
+/// the latest.
+double write_at(Output& out, const Task& task, Reader& in) {
   const auto t = in.need("t");
+  double last = task.t0;
   for (bool first = true; in.next_run();) {
     std::unique_ptr<Motion> motion;
     while (in.next()) {
@@ -289,8 +294,10 @@ void write_at(Output& out, const Task& task, Reader& in) {
         motion = task.start();
       }
       write_row(out, task, in[t], *motion);
+      last = std::max(last, in[t]);
     }
   }
+  return last;
 }
 
 /// Rows every dt up to `end`, and there too if it is the stop.
@@ -342,7 +349,7 @@ int main(int argc, char** argv) {
     tell_doubts(tool, task, sonar);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
-    const double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
+    double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
     if (task.report) {
       report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
     } else if (sensor) {
@@ -352,10 +359,10 @@ int main(int argc, char** argv) {
       write_run(tool.out, *motion, sonar);
     } else if (times_file.empty()) {
       write_every(tool.out, task, dt, *motion, end, to_the_stop);
-      if (task.foretells && to_the_stop) say_stop(tool, task, *motion, end);
     } else {
-      write_at(tool.out, task, tool.read_file(times_file, {"t"}));
+      end = write_at(tool.out, task, tool.read_file(times_file, {"t"}));
     }
+    if (task.foretells && !task.report && !sensor) say_stop(tool, task, *motion, end);
     return 0;
   });
 }
