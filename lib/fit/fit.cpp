@@ -183,8 +183,6 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   Matrix Q = orthonormal(found.system(), found.minimum);
   const auto eccentricity = eccentricity_of(found, Q);
   const auto clock_jump = jump_of_clock(found, Q);
-  OffReadings off{};  // a robust fit lets them count little
-  if (!options.robust) off = off_readings(found, false);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
   if (route == Route::velocity && noise.kind == Errors::autocorrelation && !found.noise->known())
@@ -214,7 +212,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   result.left_out -= result.n;
   result.agreement = agreement;
   result.eccentricity = eccentricity;
-  result.off = off;
+  if (!options.robust) result.off = off_readings(found, false);  // else they count little
   result.clock_jump = clock_jump;
   if (noise.kind == Errors::uneven) result.clock_noise = noise_of_clock(found);
   result.not_visited = std::move(not_visited);
