@@ -8,7 +8,8 @@
 #   message   exit 0, with a warning
 #   silent    exit 0, without a word
 #
-# What no single run can show is marked `-`: the law is then off, and nothing can tell.
+# What no single run can show is marked `-`: the law is then off, and nothing can tell. Good runs, of which
+# there are five times as many, go through five pipelines: each check that fails is a false alarm.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -33,6 +34,21 @@ seen() {
 roll() { simulate --scene "$scene" --columns t,x --dt 0.04 "$@" | seen; }
 
 good() { raw | coast | fit; }
+of_speeds() { fitpower --check --route velocity -K "$K" -R 0.04; }
+good_speeds() { raw | smooth -q --coast -c v | of_speeds; }
+good_differences() { raw | coast | differentiate -q -c x | of_speeds; }
+good_shifts() {
+  raw | coast | differentiate -q -c x | smooth -q -w 11 | differentiate -q |
+    shift-from-accel -K "$K" -R 0.04 | fitpower --check
+}
+good_four() {
+  local all=() i
+  for i in 1 2 3 4; do
+    simulate --scene "$scene" --sensor pasco --seed "$((10000 * i + seed))" | coast >"$scratch/run$i"
+    all+=("$scratch/run$i")
+  done
+  fit "${all[@]}"
+}
 millimetres() { raw | coast | awk -F '\t' '/^##/ { print; next } /^#/ { print "# t[s]\tx"; next }
   { print $1 "\t" 1000 * $2 }' | fit; }
 other_column() { raw | coast --use x=3 2>/dev/null | fit --use x=3; }
@@ -85,9 +101,9 @@ of_car() { fitpower --check --route velocity --law 'd0+d2*v^2' -K 0.04 -R 0.3; }
 wind() { coast_down 25 | of_car; }
 wind_both_ways() { { coast_down 25; echo; coast_down -25; } | of_car; }
 
-row() {  # KIND FUNCTION
-  local count=(0 0 0) silent=0 status
-  for ((seed = 1; seed <= seeds; seed++)); do
+row() {  # KIND FUNCTION [TIMES]
+  local count=(0 0 0) silent=0 status runs=$((seeds * ${3:-1}))
+  for ((seed = 1; seed <= runs; seed++)); do
     if ((seed % 2)); then scene=CR.toml; else scene=CF.toml; fi
     K=0.5 status=0
     "$2" >"$scratch/row" 2>"$scratch/said" || status=$?
@@ -95,10 +111,14 @@ row() {  # KIND FUNCTION
     count[status]=$((count[status] + 1))
     [ $status != 0 ] || [ -s "$scratch/said" ] || silent=$((silent + 1))
   done
-  printf '%s\t%d\t%d\t%d\t%d\t%d\n' "$1" "$seeds" "${count[1]}" "${count[2]}" $((count[0] - silent)) $silent
+  printf '%s\t%d\t%d\t%d\t%d\t%d\n' "$1" "$runs" "${count[1]}" "${count[2]}" $((count[0] - silent)) $silent
 }
 printf '# fault\truns\tcheck\trefused\tmessage\tsilent\n'
-row 'none' good
+row 'none, positions' good 5
+row 'none, speeds of the sensor' good_speeds 5
+row 'none, speeds by differentiate' good_differences 5
+row 'none, D' good_shifts 5
+row 'none, four runs as one' good_four 5
 row 'positions in mm, no unit' millimetres
 row 'speeds taken for positions' other_column
 row 'push left in' push_left_in
