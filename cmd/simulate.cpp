@@ -212,7 +212,9 @@ double way_to_the_stop(Motion& motion, double end) {
 /// Says when and where the body comes to rest, or turns, and how well the law tells it, if the rows
 /// up to `last` come near: there v may be 0, and sigma_v too, before the body rests.
 void say_stop(Tool& tool, const Task& task, Motion& motion, double last) {
-  const double stop = motion.stop_time();
+  // Behind the rows a track may end.
+  const double stop =
+      task.roll.body.road ? motion.roll()->stop_until(last - task.t0) : motion.stop_time();
   if (!std::isfinite(stop)) return;
   const LawOfFile& law = task.law_of_file;
   const double sigma = law.sigma(motion.roll()->stop_time_by_c());
