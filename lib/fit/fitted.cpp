@@ -11,7 +11,7 @@ namespace rolling {
 
 void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
   if (n == 0) fail("no row can be fitted");
-  if (p == 0) fail("a and b are both fixed: nothing is left to fit");
+  if (p == 0) fail("every coefficient is fixed: nothing is left to fit");
   if (independent < p)
     fail("{} cannot determine {} parameters{}", counted(n, "row"), p,
          independent < n

@@ -121,6 +121,11 @@ Fitted fit_route(Route route, const std::vector<Run>& runs, const FitOptions& op
   of_power.fixed = {};
   const Fitted power = fit_power(route, runs, of_power);
   Fitted found = fit_beside(power, *options.law, options.fixed);
+  if (was_found(found)) {
+    const std::size_t rows = found.minimum.f.size();
+    const Parameters& q = found.parameters();
+    require_rows(rows, is_trajectory(route) || q.shared() > 0 ? q.count() : 0, rows);
+  }
   const char* const formula = options.law->formula;
   if (!was_found(found) && found.parameters().scene() == 0)
     fail<MotionError>("the rows do not determine D = {}", formula);
