@@ -295,6 +295,24 @@ EvenRoll even_roll_on_road(const std::vector<ObservedRun>& runs) {
   return even;
 }
 
+/// theta of the best roll on a road. As on a slope, b is held until the other parameters are right:
+/// a search from a start may go behind the wall of b = 0.
+std::vector<double> rough_on_road(const Model& model, const System& system,
+                                  const std::vector<std::vector<double>>& starts,
+                                  const FitOptions& options) {
+  Minimum best;
+  for (const std::vector<double>& start : starts)
+    if (Minimum here = tried(system, start); here.rss < best.rss) best = std::move(here);
+  for (std::size_t r = 0; r < model.runs().size() && !std::isfinite(best.rss); ++r)  // says why
+    model.roll(starts.front(), r).at(model.runs()[r].t.back());
+  if (!std::isfinite(best.rss)) fail("no roll on this road comes near the readings");
+  const std::vector<double> start = best.theta;
+  improve(best, system, start);
+  const auto noise = std::make_shared<const Noise>();
+  if (!options.fixed[1]) improve(best, system, with_exponent_held(model, noise, start, 0.25).theta);
+  return best.theta;
+}
+
 }  // namespace
 
 FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& options) {
@@ -326,13 +344,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   system.rough = true;
   Minimum best;
   if (on_road) {
-    for (const std::vector<double>& start : all)
-      if (Minimum here = tried(system, start); here.rss < best.rss) best = std::move(here);
-    if (std::isfinite(best.rss)) improve(best, system, std::vector<double>(best.theta));
-    for (std::size_t r = 0; r < runs.size() && !std::isfinite(best.rss); ++r)  // this says why
-      model.roll(all.front(), r).at(runs[r].t.back());
-    if (!std::isfinite(best.rss)) fail("no roll on this road comes near the readings");
-    all.insert(all.begin(), std::move(best.theta));
+    all.insert(all.begin(), rough_on_road(model, system, all, options));
     return {q, std::move(all)};
   }
   best.theta = all[0];

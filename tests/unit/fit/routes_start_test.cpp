@@ -5,6 +5,8 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "contact/road.h"
+#include "motion/roll.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
 #include "least_squares/minimise.h"
@@ -139,4 +141,29 @@ TEST_CASE("first guess: speeds that the one law held has against them are refuse
   CHECK_THROWS_WITH(fit(Route::velocity, {run}, held), "no law a v^b comes near the data");
   run.v[0] = 2;  // the body stops at once, as that law has it
   CHECK(fit(Route::velocity, {run}, held).v0[0].value > 0);
+}
+
+// From a start with b of no more than 0.03 the search went behind the wall of b = 0, for laws like
+// that of rubber.
+TEST_CASE("first guess: rubber in a bowl is found, whatever its exponent", "[fit]") {
+  std::vector<double> x;
+  std::vector<double> h;
+  for (int i = -40; i <= 40; ++i) {
+    x.push_back(0.025 * i);
+    h.push_back(0.05 * x.back() * x.back());
+  }
+  const Road bowl(x, h);
+  Body body = cylinder;
+  body.road = &bowl;
+  for (const double b : {0.1, 0.15, 0.215, 0.25, 0.4}) {
+    Roll truth(body, Geometry::approximate, PowerLaw{1.87e-3, b}, 0.5, -0.3);
+    Run run{};
+    run.body = body;
+    for (int i = 0; i < 100; ++i) {
+      run.t.push_back(0.041 * i);
+      run.x.push_back(-0.3 + truth.at(run.t.back()).x);
+    }
+    CAPTURE(b);
+    CHECK(std::abs(fit(Route::position, {run}, {}).b - b) < 1e-5);
+  }
 }
