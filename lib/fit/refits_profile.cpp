@@ -99,20 +99,20 @@ class Profile {
     read_off(there);
     return there.numbers()[j_];
   }
-  /// theta where the number would have changed by this if the model were linear from this place on.
+  /// The step from a place to where the number would have changed by this if the model were linear.
   std::vector<double> ahead(const Visit& from, double change) const {
-    const Minimum& here = from.minimum;
-    return moved(here.theta, here.R.step_that_changes(at(*from.fit, here.theta).gradient,
-                                                      change - from.change));
+    return from.minimum.R.step_that_changes(at(*from.fit, from.minimum.theta).gradient,
+                                            change - from.change);
   }
   /// Fits with the number changed by this, as far as it can: the better one of the fits on this
   /// side of the wall and on it. The search starts at a place nearby, and ahead of it.
   Visit visit(double to, const Visit& from) const {
     if (!wall_) return searched(to, from);
     const Visit wall = at_wall();
-    const bool is_b = j_ == 1;
+    const bool is_b = j_ == 1;  // the coefficients a and b are the first numbers
     if (from.fit == wall_) return is_b ? wall : searched(to, from);
-    const bool behind = fit_.parameters().law(ahead(from, to)).power()->b < 0;
+    const std::vector<double> theta = moved(from.minimum.theta, ahead(from, to));
+    const bool behind = fit_.parameters().law(theta).power()->b < 0;
     if (is_b && behind && std::abs(wall.change) < std::abs(to)) return wall;
     if (is_b) return searched(to, from);
     Visit along = searched(to, wall);
@@ -130,7 +130,7 @@ class Profile {
     const double change = to * (1 + 1 / (pull * pull));  // as the other rows pull it back
     const System system = held(*from.fit, best_.value + change);
     Visit there{from.fit, to, to, INFINITY};
-    improve(there.minimum, system, ahead(from, change));
+    improve(there.minimum, system, moved(from.minimum.theta, ahead(from, change)));
     improve(there.minimum, system, from.minimum.theta);
     if (!std::isfinite(there.minimum.rss)) return there;
     there.change = at(*from.fit, there.minimum.theta).value - best_.value;
@@ -181,11 +181,10 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
   const Profile::Visit start = profile.start();
   const std::vector<double>& theta = start.minimum.theta;
   for (const double change : {-normal * profile.sigma(), normal * profile.sigma()}) try {
-      const std::vector<double> there = profile.ahead(start, change);
-      std::vector<double> step = there;
-      std::ranges::transform(there, theta, step.begin(), std::minus());
+      const std::vector<double> step = profile.ahead(start, change);
       if (relative_size(step, theta) < rounding) continue;
-      const double off = (profile.at(*start.fit, there).value - profile.value()) / change - 1;
+      const double there = profile.at(*start.fit, moved(theta, step)).value;
+      const double off = (there - profile.value()) / change - 1;
       if (!(std::abs(off) < levels::bent && bend(rows, theta, step) < levels::bent)) return true;
     } catch (const Error&) {  // there is no roll
       return true;

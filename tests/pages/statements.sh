@@ -136,6 +136,27 @@ awk '/ (position|velocity|shift) +[A-Zb]/ && NF > 24 && $(NF - 4) < 0.2 && !/sca
     for (i = NF - 12; i <= NF - 8; i += 4) { n++; if ($i < 0.915 || $i >= 0.98) { print; bad = 1 } } }
   END { exit bad || n < 80 }' samples/coverage.txt || complain 'coverage.txt: another coverage'
 
+# rolling-fits(7): what a run does not show, as `make coverage` writes it; the names are those of the page.
+sed -n '/^# trouble/,/^# Which law/p' samples/coverage.txt |
+  sed 's/^nothing/good   /; s/^viscous drag 0.02\/s/drag of 0.02\/s/; s/^scale of the sensor/scale/
+    s/^eccentricity 30/eccentric by 30/; s/^sensor 5 cm off the/sensor 5 cm off/' >"$scratch/troubles"
+awk 'NR == FNR { if (match($0, / C[RF] /)) held[substr($0, 1, 15) substr($0, RSTART + 1, 2)] = $(NF - 12); next }
+  /^(good|mat|K 3|hand|noise AR[^ ]*|eccentric|drag|sensor|scale) / { name = substr($0 "               ", 1, 15)
+    sub(/^.{20}/, ""); n++
+    if ($2 - held[name "CR"] > 0.0051 || held[name "CR"] - $2 > 0.0051 || $4 - held[name "CF"] > 0.0051 || held[name "CF"] - $4 > 0.0051) { print name; bad = 1 } }
+  END { exit bad || n != 10 }' "$scratch/troubles" <(sed -n '/^good /,/^\.Ed/p' man/rolling-fits.7) ||
+  complain 'rolling-fits(7): the shares are not those of coverage.txt'
+
+# fitpower(1): an arc of 3 m by exact heights at so many points, and D = 0.5 mm v^0.2 without noise.
+says man/fitpower.1 'with fewer than nine points it may bias the law'
+arc() { awk -v n="$1" 'BEGIN { print "x\th"; for (i = 0; i < n; i++) { x = -1.2 + 2.4 * i / (n - 1); printf "%.17g\t%.17g\n", x, 3 * (1 - cos(x / 3)) } }'; }
+arc 241 >"$scratch/fine"
+simulate -q -K 0.5 -R 0.04 -a 5e-4 -b 0.2 --v0 0.6 --x0 -0.5 --height "$scratch/fine" --until 3.8 --dt 0.04 --columns t,x >"$scratch/rolled"
+for n in 7 9; do
+  arc $n >"$scratch/few"
+  fitpower -q -K 0.5 -R 0.04 --height "$scratch/few" "$scratch/rolled" 2>/dev/null | grep -v '#' | cut -f 3
+done | paste -s - | awk '{ exit !($1 < 0.15 && $2 > 0.19 && $2 < 0.21) }' || complain 'heights of few points'
+
 # rolling(7): each of the ten warnings is one of the tools.
 grep -c '^\.It Ql' man/rolling.7 | grep -qx 10 || complain 'rolling(7): not ten warnings'
 sed -n 's/^\.It Ql //p' man/rolling.7 | sed 's/\\(aq/'"'"'/g; s/ \.\.\..*//; s/^\(there is no column\).*/\1/; s/^fields //' >"$scratch/told"

@@ -121,6 +121,7 @@ TEST_CASE("visited intervals: at the wall of b the others go on along it", "[fit
     }
     const FitResult r = fit(Route::position, {run}, options);
     const Estimate numbers[] = {r.coefficients[0], {}, *r.scene[0]};
+    CHECK(std::ranges::count(r.not_visited, 1U, &Interval::number) == 1);
     for (const Interval& found : r.not_visited) {
       CAPTURE(k, found.number, found.lower, found.upper);
       if (found.number == 1) continue;
