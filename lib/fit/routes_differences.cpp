@@ -57,16 +57,21 @@ Maker most_likely(const std::vector<Run>& all, const std::vector<Rows>& rows,
   return best;
 }
 
-/// For each row, the number of gaps before it: of steps that are much longer than those around
-/// them. The steps of a wheel that slows down grow, and uneven times differ, without a gap.
+/// For each row, the number of gaps before it: of steps that are much longer than the median of the
+/// five before them, or of the five behind them. The steps of a wheel that slows down grow, and
+/// uneven times differ, without a gap.
 std::vector<std::size_t> gaps_before(const std::vector<double>& t) {
   constexpr double longer = 1.7;
+  constexpr std::size_t aside = 3;  // from a step to the middle of those five
   std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
   const std::vector<double> usual = medians_of_five(steps);
   std::vector<std::size_t> gaps(t.size());
-  for (std::size_t i = 1; i < t.size(); ++i)
-    gaps[i] = gaps[i - 1] + (steps[i - 1] > longer * usual[i - 1]);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double before = usual[i < aside ? 0 : i - aside];
+    const double behind = usual[std::min(i + aside, steps.size() - 1)];
+    gaps[i + 1] = gaps[i] + (steps[i] > longer * std::min(before, behind));
+  }
   return gaps;
 }
 
