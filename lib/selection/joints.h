@@ -46,7 +46,8 @@ class Joints {
   /// At the stop, s, the speed falls to 0 without a jump. Positions are y + sum c_k (s - t)^k,
   /// k > 1, before s, and y from then on, but for the rounding that all readings of the rest share.
   /// The sum has three powers, and so has that of speeds, from k = 1 on: with fewer, a law whose
-  /// speed falls like another power looks like a hand.
+  /// speed falls like another power looks like a hand. The speed at s and behind it is any
+  /// constant: that of a sensor at rest, or that at which the body is held.
   Ending before_stop(std::size_t begin, std::size_t roughly, std::size_t end) const;
 
   /// The same of a roll that a hand ends: it takes the speed v to 0 as v (1 + cos(pi s/T))/2,

@@ -79,7 +79,9 @@ class Piece {
   double middle() const { return std::midpoint(from, to); }
   double duration() const { return to - from; }
   std::size_t size() const { return end - begin; }
-  bool is_short() const { return size() < 5; }  // it has a place but hardly an acceleration
+  bool is_short() const { return size() < few; }
+
+  static constexpr std::size_t few = 5;  ///< fewer have a place but hardly an acceleration
 
   std::size_t begin, end;
   double from, to;

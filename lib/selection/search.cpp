@@ -199,8 +199,11 @@ class Search {
     return v.value * way > 0.03 * fastest_ && stands_out(p, p);
   }
 
-  /// Whether the motion of a goes on in b under one law, whatever lies between.
+  /// Whether the motion of a goes on in b under one law. A few readings that are off may lie
+  /// between them; more are another motion, as of a body that is driven, and held, and coasts
+  /// again.
   bool continues(const Piece& a, const Piece& b) const {
+    if (b.begin - a.end >= Piece::few) return false;
     if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
@@ -290,11 +293,29 @@ class Search {
     }
     if (how != FreeRoll::End::is_ended && std::abs(last.v(last.to).value) < slow * c.fastest)
       how = slow_end(c, how, sudden, s);
+    else if (is_driven_behind(c)) s.end = std::min(s.end, before_held(last));
     if (how == FreeRoll::End::is_ended) {
       const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
       while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
     }
     return how;
+  }
+
+  /// Whether the body is driven behind the roll: its speed rises there.
+  bool is_driven_behind(const Chain& c) const {
+    if (pieces_[c.last].end == samples_.size()) return false;
+    const Piece& next = pieces_[c.last + 1];
+    const auto a = next.a(next.middle());
+    return a.is_known() && a.value * next.v(next.middle()).value > 0;
+  }
+  /// The end of the roll in the last piece before the body is driven. The body may have been held
+  /// at its last speed for a moment; where the noise hides that, it may be hidden in this piece. If
+  /// it could hide in a fifth of the piece, the readings say nothing about it, and all of it is
+  /// kept.
+  std::size_t before_held(const Piece& last) const {
+    if (positions_) return last.end;
+    const std::size_t held = joints_.before_stop(last.begin, last.end, last.end).end;
+    return last.end - held < last.size() / 5 ? held : last.end;
   }
 
   /// The end of the stretch, moved back to the middle of equal readings: a step of rounded readings

@@ -117,8 +117,8 @@ TEST_CASE(
   CHECK(differences >= 54);
 }
 
-// PASCO's rule needs two readings on either side, and not that of its own row: where echoes are lost
-// in every third row, single speeds stand between gaps.
+// PASCO's rule needs two readings on either side, and not that of its own row: where echoes are
+// lost in every third row, single speeds stand between gaps.
 TEST_CASE("differences: gaps that follow each other are gaps", "[fit]") {
   const auto truth = simulated::roll(cylinder, 5.75e-4, 0.0244, 0.5);
   FitOptions options;
