@@ -63,8 +63,13 @@ void refuse_start_over(std::span<const Sample> run) {
       before.y, after.y, after.t);
 }
 
+struct Found {
+  std::vector<FreeRoll> rolls;
+  double noise;  ///< of the means
+};
+
 /// The rolls in the means of equal numbers of samples.
-std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions) {
+Found rolls_in_means(std::span<const Sample> run, bool positions) {
   const std::size_t size = size_of_means(run.size());
   constexpr double off = 6;  // standard errors
   std::vector<double> y;     // of the first sample of each mean
@@ -96,21 +101,13 @@ std::vector<FreeRoll> rolls_in_means(std::span<const Sample> run, bool positions
   const Means of_rows = means_of_rows(samples);
   const double noise =
       std::max(noise_of(samples, positions, std::ldexp(step, -units.y)), of_rows.noise);
-  std::vector<FreeRoll> found = search_rolls(samples, positions, noise, of_rows.rows);
-  if (found.empty()) {
-    refuse_spikes(run, 0.02);
-    const auto [low, high] = std::ranges::minmax(y);
-    fail<NoFreeRoll>(
-        "no free roll is found: the readings go from {:.4g} to {:.4g}, and no slowing down is "
-        "above their noise of {:.1g}",
-        low, high, std::ldexp(noise, units.y));
-  }
+  Found found{search_rolls(samples, positions, noise, of_rows.rows), std::ldexp(noise, units.y)};
   const auto of_run = [&](const Stretch& s) {
     const std::size_t begin = index[s.begin];
     const std::size_t end = s.end == samples.size() ? run.size() : index[s.end - 1] + size;
     return Stretch{begin, end, run[begin].t, run[end - 1].t};
   };
-  for (FreeRoll& roll : found) {
+  for (FreeRoll& roll : found.rolls) {
     roll.kept = of_run(roll.kept);
     if (roll.other) roll.other = of_run(*roll.other);
     roll.after = std::ldexp(roll.after, units.t) + run[0].t;
@@ -135,7 +132,8 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
     const std::size_t to = std::min(roll.kept.end + around, run.size());
     if (to - from > n / 2) return;
     n = to - from;
-    std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions);
+    std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions).rolls;
+    if (found.empty()) return;  // finer means are noisier
     for (FreeRoll& of : found) {
       of.kept.begin += from;
       of.kept.end += from;
@@ -150,24 +148,31 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
   }
 }
 
-void require_motion(std::span<const Sample> run, bool positions) {
+/// The rolls in a run. Throws Error if there is none.
+std::vector<FreeRoll> rolls_of(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
   refuse_spikes(run, 0.12);
   if (positions) refuse_start_over(run);
+  Found found = rolls_in_means(run, positions);
+  if (!found.rolls.empty()) return found.rolls;
+  refuse_spikes(run, 0.02);
+  const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
+  fail<NoFreeRoll>(
+      "no free roll is found: the readings go from {:.4g} to {:.4g}, and no slowing down is long "
+      "enough, or above their noise of {:.1g}",
+      low.y, high.y, found.noise);
 }
 
 }  // namespace
 
 FreeRoll free_roll(std::span<const Sample> run, bool positions) {
-  require_motion(run, positions);
-  FreeRoll longest = rolls_in_means(run, positions).front();
+  FreeRoll longest = rolls_of(run, positions).front();
   refine(run, positions, longest);
   return longest;
 }
 
 std::vector<FreeRoll> free_rolls(std::span<const Sample> run, bool positions) {
-  require_motion(run, positions);
-  std::vector<FreeRoll> rolls = rolls_in_means(run, positions);
+  std::vector<FreeRoll> rolls = rolls_of(run, positions);
   for (FreeRoll& roll : rolls) refine(run, positions, roll);
   std::ranges::sort(rolls, {}, [](const FreeRoll& roll) { return roll.kept.begin; });
   return rolls;

@@ -144,7 +144,7 @@ Means means_of_rows(std::span<const Sample> samples) {
   std::vector<double> third = third_differences(samples, 1);
   std::vector<double> sizes = sizes_of(third);
   std::vector<double> apart = sizes_of(third_differences(samples, 3));
-  if (apart.size() < 20) return {};
+  if (std::min(sizes.size(), apart.size()) < 20) return {};
   const double typical = median(sizes);
   const bool rounded = typical < 3 * std::ranges::min(sizes);
   if (rounded || median(apart) < 1.3 * typical) return {};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,16 +47,22 @@ class Search {
     std::ranges::sort(all, std::greater(), rank);
     const std::vector<Chain> alike = of_one_law(all);
     std::vector<FreeRoll> found;
-    for (const Chain& c : alike) found.push_back(kept(c));
+    Chain best{};
+    for (const Chain& c : alike) {
+      const auto roll = kept(c);
+      if (!roll) continue;
+      if (found.empty()) best = c;
+      found.push_back(*roll);
+    }
     if (found.empty()) return found;
-    const Chain& best = alike[0];
     const auto may_be = [&](const Chain& c) {
       return c.first != best.first && c.lost > 0.05 &&
              (c.duration > 0.4 * best.duration ||
               (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
     };
     const auto other = std::ranges::find_if(all, may_be);
-    if (other != all.end()) found[0].other = kept(*other).kept;
+    if (other == all.end()) return found;
+    if (const auto roll = kept(*other)) found[0].other = roll->kept;
     return found;
   }
 
@@ -246,21 +253,24 @@ class Search {
     return is_slow(c) ? FreeRoll::End::by_itself : FreeRoll::End::is_ended;
   }
 
-  /// The samples that belong to a roll whatever their noise.
-  FreeRoll kept(const Chain& c) const {
+  /// The samples that belong to a roll whatever their noise; nothing if they are fewer than a piece
+  /// needs.
+  std::optional<FreeRoll> kept(const Chain& c) const {
     Stretch s{begin_of(c), pieces_[c.last].end};
     FreeRoll::End how = set_end(c, s);
     // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
     // several positions knows of a row behind the joint, and a mean of as many as it is made of.
     const std::size_t spare =
         std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
+    if (s.end < s.begin + 2 * spare + Piece::few) return {};
     if (s.begin > 0) s.begin += spare;
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
     // A rest at the end of the run may be too short for a piece of its own.
     if (how == FreeRoll::End::goes_on && s.end < samples_.size() && is_slow(c))
       how = FreeRoll::End::by_itself;
-    return {s, how, samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t};
+    const double after = samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t;
+    return FreeRoll{s, how, after};
   }
 
   /// The first sample behind the push, wherever the joint lies.

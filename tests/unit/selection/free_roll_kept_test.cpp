@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -180,4 +181,53 @@ TEST_CASE("free_roll: a coast does not go on behind a drive", "[signal]") {
   REQUIRE(rolls.size() == 2);
   CHECK(rolls[0].kept.to <= 32);
   CHECK(rolls[1].kept.from >= 44);
+}
+
+// Of steps of 32 and 48 ms in turn, the differences of a reading to the next ones are of times that
+// differ, and those to the third are not.
+TEST_CASE("free_roll: steps that alternate", "[signal]") {
+  const Series e = noise(101, 3);
+  std::vector<Sample> run;
+  double t = 0;
+  for (const double of_noise : e) {
+    run.push_back({t, 0.5 - 0.08 * t + 1e-3 * of_noise});
+    t += run.size() % 2 == 0 ? 0.048 : 0.032;
+  }
+  CHECK(free_roll(run, false).kept.end == run.size());
+}
+
+// What is left of a short roll between its uncertain ends may be nothing.
+TEST_CASE("free_roll: one that is shorter than the means it is made of is refused", "[signal]") {
+  for (const unsigned rows : {20U, 30U, 40U}) {
+    const Series e = noise(600, rows);
+    std::vector<double> v;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const double past = static_cast<double>(i) - 300;
+      double speed = 0;
+      if (past > 0) speed = 0.1 * std::min(past, 5.0);
+      if (past > 5) speed -= 0.008 * (past - 5);
+      v.push_back((past < static_cast<double>(rows) ? std::max(speed, 0.0) : 0) + 3e-3 * e[i]);
+    }
+    std::vector<Sample> run;
+    for (std::size_t i = 17; i + 17 < v.size(); ++i)
+      run.push_back({0.02 * static_cast<double>(i), std::reduce(&v[i - 17], &v[i] + 18) / 35});
+    CAPTURE(rows);
+    CHECK_THROWS_AS(free_roll(run, false), NoFreeRoll);
+  }
+}
+
+// Among means of 20 readings it stands out; among the finer ones of a part of the run it does not.
+TEST_CASE("free_roll: what a finer search does not find is not lost", "[signal]") {
+  const Series e = noise(20000, 1);
+  std::vector<Sample> run;
+  for (const double of_noise : e) {
+    const double t = 1e-3 * static_cast<double>(run.size());
+    const double v = t > 2 ? std::max(0.0, 0.5 - 0.08 * (t - 2)) : 0;
+    run.push_back({t, v + 0.35 * of_noise});
+  }
+  const FreeRoll roll = free_roll(run, false);
+  CHECK(roll.kept.from > 1.8);
+  CHECK(roll.kept.from < 3);
+  CHECK(roll.kept.to > 7);
+  CHECK(roll.kept.to < 8.5);
 }
