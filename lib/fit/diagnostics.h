@@ -20,7 +20,7 @@ Path path_of(const Fitted&, std::size_t run);
 /// (1982, Astrophys. J. 263, 835) of the residuals over x, at the one period 2 pi R. Sine and
 /// cosine of x/R are shifts; they are carried through the equation of motion (A = 1, as if the
 /// speed were steady in a turn) and through the filters of the data, and made orthogonal to the
-/// columns of Q (errors.h), because the fit can follow those. The noise before the filters is
+/// columns of Q (uncertainty.h), because the fit can follow those. The noise before the filters is
 /// assumed white, of its own size in each run.
 ///
 /// The result is the run with the smallest p. It is empty if no run reaches 1 % (after Bonferroni's

@@ -13,7 +13,7 @@
 namespace rolling {
 
 /// Fits all runs jointly: a and b are common to the runs, v0 and x0 belong to each run. Where the
-/// runs disagree, a and b are the means of the runs' own values (errors.h). Throws Error with a
+/// runs disagree, a and b are the means of the runs' own values (refits.h). Throws Error with a
 /// one-line message if the data do not determine the result: too few rows, all v equal, no
 /// positive D (loglog), no convergence, a standard error of b above 3, a slope that cannot be
 /// separated from a.

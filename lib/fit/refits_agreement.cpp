@@ -126,13 +126,15 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
 
 /// The law of runs that disagree becomes their scattered_mean(); where the slope is fitted, that at
 /// the slope at which they agree best. Returns the covariance of a, b and the slope; or nothing,
-/// and does nothing, where the law stays that of the joint fit.
+/// and does nothing, if the law stays that of the joint fit: as if another number of the scene is
+/// fitted.
 std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& options,
                                  Fitted& joint) {
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;
   const auto way = [&](const OwnLaw& one) { return joint.model.runs()[one.run].way; };
   const bool of_one_way = std::ranges::adjacent_find(laws, std::not_equal_to(), way) == laws.end();
-  if (freedom < 1 || !options.fits_power() ||
+  const bool of_slope_alone = joint.scene.size() == static_cast<std::size_t>(options.fit_slope);
+  if (freedom < 1 || !options.fits_power() || !of_slope_alone ||
       (options.fit_slope && (options.fixed[0] || of_one_way)))
     return {};
   const double log_v = common_log_v(laws, [&](const OwnLaw& one) { return log_v_of(one, joint); });
@@ -184,8 +186,10 @@ void compare_by_readings(Agreement& found, const std::vector<std::optional<Fitte
     p = std::min(p, p_of_run(rise / alone.rss * freedom, freedom, parameters));
     ++runs;
   }
-  const std::size_t dof = parameters * (runs - 1) - joint.scene.size();
-  found.p = std::max(found.p, gsl_cdf_chisq_Q(ratio, static_cast<double>(dof)));
+  const std::size_t differences = parameters * (runs - 1);
+  if (differences <= joint.scene.size()) return;
+  const auto dof = static_cast<double>(differences - joint.scene.size());
+  found.p = std::max(found.p, gsl_cdf_chisq_Q(ratio, dof));
   found.p_of_run = std::max(found.p_of_run, std::min(1.0, p * static_cast<double>(runs)));
 }
 
@@ -213,6 +217,7 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
     }
   const std::size_t shared = joint.coefficients.size() + joint.scene.size();
   const auto of_means = take_means(laws, options, joint);
+  found.of_mean = of_means.has_value();
   for (std::size_t i = 0; i < errors.covariance.size(); ++i)
     for (std::size_t j = 0; j < errors.covariance.size(); ++j) {
       double& both = errors.covariance[i][j];

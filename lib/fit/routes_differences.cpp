@@ -145,6 +145,7 @@ std::optional<Fitted> fit_differences(const std::vector<Run>& all, const FitOpti
   for (std::size_t r = 0; r < all.size(); ++r) {
     Run& head = heads.emplace_back();
     head.body = all[r].body;
+    head.x0 = all[r].x0;
     for (std::size_t i = 0; i < std::min(all[r].t.size(), searched); ++i) {
       head.t.push_back(all[r].t[i]);
       head.v.push_back(all[r].v[i]);

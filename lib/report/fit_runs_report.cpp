@@ -357,7 +357,8 @@ std::string disagreement(const Agreement& found, const std::vector<Run>& runs, b
   if (found.b.sigma > 0)
     line += fmt::format(", in its exponent by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
   if (agree) return line;
-  return line + "; the row is their mean, with their scatter in its uncertainties";
+  return line + (found.of_mean ? "; the row is their mean, with their scatter in its uncertainties"
+                               : "; the uncertainties of the row contain their scatter");
 }
 
 void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options, std::size_t fits) {

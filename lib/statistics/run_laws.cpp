@@ -85,7 +85,8 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::
     stand_out(result, one, rest * (all.sum - weight * one.law), rest, parameters, most);
   }
   result.p_of_run = std::min(1.0, result.p_of_run * static_cast<double>(laws.size()));
-  result.dof = parameters * (laws.size() - 1) - taken;
+  const std::size_t differences = parameters * (laws.size() - 1);
+  result.dof = differences - std::min(differences, taken);
   result.ratio = least_from(mean, laws, parameters);
   if (result.dof > 0) result.p = gsl_cdf_chisq_Q(result.ratio, static_cast<double>(result.dof));
   return result;
@@ -174,6 +175,7 @@ JointLaw joint_law(const std::vector<OwnLaw>& laws, const std::vector<CommonErro
   if (C.aa == 0) joint.law.a = laws.front().law.a;
   if (C.bb == 0) joint.law.b = laws.front().law.b;
   joint.agreement = compare(laws, static_cast<std::size_t>(C.aa > 0) + (C.bb > 0), 0);
+  joint.agreement.of_mean = true;
   if (!joint.agreement.agree()) {
     const double log_v = common_log_v(laws, [](const OwnLaw& one) { return one.best_log_v(); });
     JointLaw mean = scattered_mean(laws, log_v, static_cast<double>(laws.size()) - 1, common);

@@ -97,9 +97,10 @@ struct Agreement {
   /// by Fisher's F, times the number of runs (Bonferroni). One bad run among many is found by it; a
   /// chi-square of all hides it.
   double p_of_run = 1;
-  double speed = 1;     ///< the speed at which D of that run is known best [m/s]
-  Estimate log_D = {};  ///< ln D of that run minus ln D of the others at that speed
-  Estimate b = {};      ///< the exponent of that run minus the exponent of the others
+  double speed = 1;      ///< the speed at which D of that run is known best [m/s]
+  Estimate log_D = {};   ///< ln D of that run minus ln D of the others at that speed
+  Estimate b = {};       ///< the exponent of that run minus the exponent of the others
+  bool of_mean = false;  ///< the law of the row is the mean of the runs' own
 
   bool agree() const { return p > levels::runs_disagree; }
 };

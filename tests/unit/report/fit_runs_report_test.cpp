@@ -15,6 +15,9 @@ TEST_CASE("fit report: runs that disagree are told with the run that stands out,
                         "the runs disagree by more than their noise (chi2 20 of 2 degrees of "
                         "freedom, p = 0.0001): run two stands out, in D(0.5 m/s) by +10 +- 1 %",
                     after = "; the row is their mean, with their scatter in its uncertainties";
+  CHECK(disagreement(found, runs, false) ==
+        before + "; the uncertainties of the row contain their scatter");
+  found.of_mean = true;
   CHECK(disagreement(found, runs, false) == before + after);  // b is fixed
   found.b = {-0.02, 0.003};
   CHECK(disagreement(found, runs, false) == before + ", in its exponent by -0.02 +- 0.003" + after);
