@@ -237,7 +237,9 @@ std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines
   for (const std::string& line : lines) {
     const auto words = split_names(line, '\0');
     if (words.front() != "shift-from-accel" && words.front() != "simulate") continue;
-    const bool exact = std::ranges::count(words, "exact") > 0;
+    bool exact = false;
+    for (std::size_t i = 1; i < words.size(); ++i)
+      exact |= words[i] == "exact" && words[i - 1] != "height";  // a table may have that name
     geometry = exact ? Geometry::exact : Geometry::approximate;
   }
   return geometry;

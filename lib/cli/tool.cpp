@@ -144,7 +144,11 @@ bool Tool::uses(const std::string& quantity) const {
   });
 }
 
-Reader& Tool::read(std::vector<std::string> order) { return open(input_, std::move(order)); }
+Reader& Tool::read(std::vector<std::string> order) {
+  Reader& rows = open(input_, std::move(order));
+  rows_ = &rows;
+  return rows;
+}
 
 Reader& Tool::read_file(const std::string& file, std::vector<std::string> order) {
   // --use is about the operands
@@ -204,7 +208,7 @@ std::string Tool::told(const Error& error) const {
   const auto is_coast = [](const std::string& line) {
     return line.ends_with(" coast") || line.ends_with(" rolls");
   };
-  if (!readers_.empty() && std::ranges::any_of(readers_.back()->history(), is_coast))
+  if (rows_ != nullptr && std::ranges::any_of(rows_->history(), is_coast))
     text = replace_all(text, {{"--coast, or with ", ""}, {"--coast, or ", ""}});
   if (has("slope") && given("slope"))
     text = replace_all(text, {{" (up a slope and back: --slope fit)", ""}});
@@ -231,8 +235,11 @@ int Tool::finish(int status) {
 /// The message of an error. One that names no place is about the present row, and may come from
 /// columns that were taken without a name.
 std::string Tool::message_of(const Error& error) const {
-  if (readers_.empty() || dynamic_cast<const CompleteError*>(&error)) return told(error);
-  const Reader& in = *readers_.back();
+  const auto at_row = [](const auto& reader) { return !reader->where().empty(); };
+  const auto last = std::find_if(readers_.rbegin(), readers_.rend(), at_row);
+  const Reader* const reader = last == readers_.rend() ? rows_ : last->get();
+  if (reader == nullptr || dynamic_cast<const CompleteError*>(&error)) return told(error);
+  const Reader& in = *reader;
   std::string text = in.where();
   if (!text.empty()) text += ": ";
   text += told(error);
@@ -273,9 +280,9 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     }
   } catch (const Error& error) {
     // What was odd in the rows may be why no roll fits them; message_of() says what was assumed.
-    if (!readers_.empty() && dynamic_cast<const MotionError*>(&error))
-      for (const std::string& warning : readers_.back()->warnings())
-        if (warning != readers_.back()->assumed()) warn(warning);
+    if (rows_ != nullptr && dynamic_cast<const MotionError*>(&error))
+      for (const std::string& warning : rows_->warnings())
+        if (warning != rows_->assumed()) warn(warning);
     say(message_of(error));
   } catch (const std::bad_alloc&) {
     say("out of memory");

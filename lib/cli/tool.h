@@ -241,6 +241,7 @@ class Tool {
   Body last_body_{not_given, not_given, not_given};  // of the options
   std::vector<std::string> doubts_;                  // about its numbers
   std::vector<std::unique_ptr<Reader>> readers_;
+  const Reader* rows_ = nullptr;  // that of the operands
   std::unique_ptr<CLI::App> app_;
   std::set<std::string> in_scene_;  // the keys of the scene that are options of this tool
   std::string scene_file_;

@@ -291,11 +291,13 @@ std::string Tool::parse(int argc, const char* const* argv) {
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   for (std::string& argument : arguments)
     if (argument.starts_with('[')) argument.insert(argument.begin(), one_word);
-  for (const std::string& argument : arguments)
+  for (const std::string& argument : arguments) {
+    if (argument == "--") break;  // files follow
     if (argument.starts_with('-') && argument.size() > 2 &&
         app_->get_option_no_throw("-" + argument))
       fail("{}: write -{}", argument, argument);  // -coast would be -c oast
-  std::ranges::reverse(arguments);                // as CLI11 wants them
+  }
+  std::ranges::reverse(arguments);  // as CLI11 wants them
   try {
     app_->parse(std::move(arguments));
     return {};

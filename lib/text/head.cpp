@@ -345,8 +345,8 @@ class HeadReader {
   Head finish() {
     for (HeadLine& line : above_) {
       note_units(line.text, line.number, head_.said);
-      if (line.is_history())
-        head_.history.emplace_back(trim(std::string_view(line.text).substr(2)));
+      const std::string_view words = trim(without_marks(line.text));
+      if (line.is_history() && !words.empty()) head_.history.emplace_back(words);
       std::ranges::replace(line.text, '\n', ' ');
       head_.comments.push_back((line.is_bare() ? "# " : "") + std::move(line.text));
     }
