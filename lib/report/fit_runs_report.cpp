@@ -287,6 +287,13 @@ class Remarks {
     return names[number];
   }
 
+  /// Both ends with three digits of their distance, or more.
+  static std::string range(double lower, double upper) {
+    const double size = std::max(std::abs(lower), std::abs(upper)) / (upper - lower);
+    const int digits = 3 + static_cast<int>(std::log10(std::clamp(size, 1.0, 1e14)));
+    return fmt::format("{:.{}g} to {:.{}g}", lower, digits, upper, digits);
+  }
+
   /// Tells the intervals that are not those of 1.96 standard errors.
   void intervals() {
     std::string all;
@@ -295,7 +302,7 @@ class Remarks {
       if (std::isinf(of.lower) && std::isinf(of.upper)) add_item(all, name + " not bounded");
       else if (std::isinf(of.lower)) add_item(all, fmt::format("{} below {:.3g}", name, of.upper));
       else if (std::isinf(of.upper)) add_item(all, fmt::format("{} above {:.3g}", name, of.lower));
-      else add_item(all, fmt::format("{} {:.3g} to {:.3g}", name, of.lower, of.upper));
+      else add_item(all, name + " " + range(of.lower, of.upper));
     }
     if (!all.empty())
       tool_.object(run_, "+- 1.96 sigma is no 95 % interval here; the sum of squares gives " + all);

@@ -214,6 +214,7 @@ TEST_CASE("differences: to the row before or after, on even and uneven times, v0
       covered += std::abs(r.b - 0.1) < 1.96 * r.sigma_b;
       white += r.whiteness > 0.003;
       CHECK(r.left_out < 10);
+      CHECK(r.v0[0].sigma < 3e-3);  // half a step makes 1.8e-3
       of_v0 += std::abs(r.v0[0].value - truth.v(run.t[0] - clock)) < 1.96 * r.v0[0].sigma;
     }
     CAPTURE(jitter, after, found, covered, white, of_v0);
