@@ -105,9 +105,10 @@ struct FitResult {
   std::vector<Interval> not_visited = {};         ///< in place of 1.96 standard errors
 };
 
-/// True if the noise is autocorrelated, by a small p, and the standard errors allow for that.
+/// True if the noise is autocorrelated, by a small p. The standard errors allow for that, but in few
+/// rows.
 inline bool noise_is_correlated(const FitResult& r) {
-  return r.errors == Errors::autocorrelation && r.whiteness <= levels::not_white;
+  return r.whiteness <= levels::not_white;
 }
 
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second

@@ -104,7 +104,7 @@ Fitted fit_power(Route route, const std::vector<Run>& runs, const FitOptions& op
   if (!known && route == Route::shift) return fit_shift(runs, options);
   Fitted fit = fit_rolls(route, runs, usable(route, runs), std::move(responses), options);
   if (route == Route::velocity && !known && !options.robust && !options.possible_filters.empty() &&
-      fit.minimum.f.size() >= 30)
+      fit.minimum.f.size() >= levels::least_tested)
     if (auto differences = fit_differences(runs, options, fit)) return *std::move(differences);
   return fit;
 }

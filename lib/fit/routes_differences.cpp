@@ -121,9 +121,12 @@ void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<Run>& 
 /// hundred rows usually give a likelihood ratio of e^3.
 constexpr std::size_t searched = 2000;
 
-/// False if the search would find nothing: differences leave a correlation that this many residuals
-/// show. In fewer residuals the likelihood tells more than this test does.
+/// False if the search would find nothing: where the rounding of the speeds alone leaves such
+/// residuals, or where differences would leave a correlation that this many residuals show. In
+/// fewer residuals the likelihood tells more than this test does.
 bool may_be_differences(const Fitted& plain) {
+  if (plain.minimum.rss < variance_of_rounding(plain) * static_cast<double>(plain.degrees_left()))
+    return false;
   std::vector<double> f;
   std::vector<std::size_t> runs;
   for (const auto of_run : by_run(plain.minimum.f, plain.model.rows())) {

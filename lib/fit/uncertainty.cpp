@@ -132,7 +132,7 @@ std::pair<double, Errors> tested(const Fitted& fit, const SeenNoise& seen) {
   if (seen.left.empty() || fit.noise->known()) white = Errors::filters;
   if (fit.noise->added().inferred) white = Errors::differences;
   double whiteness = ljung_box(noise, seen.taken, runs);
-  if (fit.minimum.f.size() < 30) return {whiteness, white};
+  if (fit.minimum.f.size() < levels::least_tested) return {whiteness, white};
   const bool uneven = breusch_pagan(noise, runs, seen.left) <= levels::uneven;
   if (uneven && whiteness <= levels::not_white)
     whiteness = ljung_box(noise, seen.taken, runs, uneven);

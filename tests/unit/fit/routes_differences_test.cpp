@@ -22,6 +22,7 @@ TEST_CASE(
   FitOptions options;
   options.possible_filters = {difference, mean};
   simulated::Noise noise(12);
+  simulated::Noise other_noise(13);
   std::size_t found[4] = {}, covered = 0;
   double share = 0;  // of the errors by filters that the `##` lines would tell
   constexpr std::size_t runs = 50;
@@ -48,8 +49,13 @@ TEST_CASE(
     found[1] += fit(Route::velocity, {run}, options).errors == Errors::differences;
     run.v = mean.apply(run.t, v);
     found[2] += fit(Route::velocity, {run}, options).errors == Errors::differences;
-    run.t.resize(29);
-    run.v = difference.apply(run.t, std::vector<double>(x.begin(), x.begin() + 29));
+    run.t.clear();
+    x.clear();
+    for (int i = 0; i < 19; ++i) {
+      run.t.push_back(0.25 * i);
+      x.push_back(truth.x(run.t.back()) + other_noise(3e-4));
+    }
+    run.v = difference.apply(run.t, x);
     found[3] += fit(Route::velocity, {run}, options).errors == Errors::differences;
   }
   CHECK(found[0] >= 45);
