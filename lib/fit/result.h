@@ -105,11 +105,9 @@ struct FitResult {
   std::vector<Interval> not_visited = {};         ///< in place of 1.96 standard errors
 };
 
-/// True if the noise is autocorrelated, by a small p. The standard errors allow for that, but in few
-/// rows.
-inline bool noise_is_correlated(const FitResult& r) {
-  return r.whiteness <= levels::not_white;
-}
+/// True if the noise is autocorrelated, by a small p. The standard errors allow for that, but in
+/// few rows.
+inline bool noise_is_correlated(const FitResult& r) { return r.whiteness <= levels::not_white; }
 
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second
 /// order). The function is true if this is more than the standard error of the line at the speed

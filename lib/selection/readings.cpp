@@ -215,6 +215,29 @@ std::optional<std::size_t> start_over(std::span<const Sample> run) {
   return {};
 }
 
+namespace {
+
+/// Whether each reading, but for the first and the last, stays for a whole multiple of two rows or
+/// more, though some of the steps are larger than `unit`: rounded readings do not rest between such
+/// steps.
+bool stay_for_whole_holds(std::span<const double> readings, double rounding, double unit) {
+  std::size_t rows = 1;
+  std::size_t stretches = 0;
+  std::size_t large = 0;
+  std::size_t hold = 0;
+  for (std::size_t i = 1; i < readings.size(); ++i, ++rows) {
+    const double step = std::abs(readings[i] - readings[i - 1]);
+    if (step <= rounding) continue;
+    if (stretches > 0) hold = std::gcd(hold, rows);
+    ++stretches;
+    large += step > 1.5 * unit;
+    rows = 0;
+  }
+  return hold > 1 && stretches > 8 && large > 3;
+}
+
+}  // namespace
+
 bool are_held(std::span<const double> readings) {
   double largest = 0;
   for (const double y : readings) largest = std::max(largest, std::abs(y));
@@ -231,6 +254,7 @@ bool are_held(std::span<const double> readings) {
   });
   const bool on_grid = 5 * static_cast<std::size_t>(multiples) >= 3 * steps.size();
   const double unit = on_grid ? low : std::min(low, 8 * place);
+  if (stay_for_whole_holds(readings, rounding, unit)) return true;
   std::size_t waiting = 0;
   std::size_t held = 0;
   std::size_t stretches = 0;  // held between two jumps

@@ -48,12 +48,11 @@ class Search {
     const std::vector<Chain> alike = of_one_law(all);
     std::vector<FreeRoll> found;
     Chain best{};
-    for (const Chain& c : alike) {
-      const auto roll = kept(c);
-      if (!roll) continue;
-      if (found.empty()) best = c;
-      found.push_back(*roll);
-    }
+    for (const Chain& c : alike)
+      if (const auto roll = kept(c)) {
+        if (found.empty()) best = c;
+        found.push_back(*roll);
+      }
     if (found.empty()) return found;
     const auto may_be = [&](const Chain& c) {
       return c.first != best.first && c.lost > 0.05 &&
@@ -207,8 +206,7 @@ class Search {
   }
 
   /// Whether the motion of a goes on in b under one law. A few readings that are off may lie
-  /// between them; more are another motion, as of a body that is driven, and held, and coasts
-  /// again.
+  /// between them; more are another motion.
   bool continues(const Piece& a, const Piece& b) const {
     if (b.begin - a.end >= Piece::few) return false;
     if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
@@ -258,8 +256,8 @@ class Search {
   std::optional<FreeRoll> kept(const Chain& c) const {
     Stretch s{begin_of(c), pieces_[c.last].end};
     FreeRoll::End how = set_end(c, s);
-    // The rows that decided are not kept, which would bias a and b; and what a sensor makes of
-    // several positions knows of a row behind the joint, and a mean of as many as it is made of.
+    // The rows that decided are not kept, which would bias a and b; a speed that a sensor makes of
+    // several positions knows of a row behind the joint, a mean of as many as it is made of.
     const std::size_t spare =
         std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
     if (s.end < s.begin + 2 * spare + Piece::few) return {};
@@ -318,10 +316,8 @@ class Search {
     const auto a = next.a(next.middle());
     return a.is_known() && a.value * next.v(next.middle()).value > 0;
   }
-  /// The end of the roll in the last piece before the body is driven. The body may have been held
-  /// at its last speed for a moment; where the noise hides that, it may be hidden in this piece. If
-  /// it could hide in a fifth of the piece, the readings say nothing about it, and all of it is
-  /// kept.
+  /// The end of the roll in the last piece before the body is driven: it may have been held at its
+  /// last speed for a moment. If a fifth of the piece could be that, the readings say nothing.
   std::size_t before_held(const Piece& last) const {
     if (positions_) return last.end;
     const std::size_t held = joints_.before_stop(last.begin, last.end, last.end).end;

@@ -42,6 +42,20 @@ TEST_CASE("readings: those that were held are told", "[signal]") {
   CHECK(told >= 0.98 * all);  // 25 rows each of 500 are 20 readings
 }
 
+// Whole km/h fall in steps of one, which may be a grid; that each of them stays for two rows is
+// none.
+TEST_CASE("readings: whole numbers that were held for two rows each", "[signal]") {
+  for (const std::size_t held : {1U, 2U, 3U}) {
+    Series v;
+    for (std::size_t i = 0; i < 80; ++i) {
+      const auto t = static_cast<double>(i - i % held);
+      v.push_back(std::round(t < 10 ? 4 * t : 40 * std::exp(-0.016 * (t - 10))));
+    }
+    CAPTURE(held);
+    CHECK(are_held(v) == (held > 1));
+  }
+}
+
 TEST_CASE("readings: those that are merely rounded, at rest or few are not held", "[signal]") {
   for (const double unit : {0., 1e-5, 0.001, 0.01, 0.1})
     for (const double size : {0., 0.001, 0.01, 0.05, 0.2})
