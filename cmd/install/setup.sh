@@ -11,7 +11,7 @@ goals=${*:-check}
 packages='g++ libgsl-dev libfmt-dev libcli11-dev'
 need() { packages="$packages $*"; }
 is_goal() {
-  name=${1##*/}
+  name=${1#*/}
   case $1 in
     figures/report.html | figures/man/index.html | build/*) ;;
     figures/*.svg | figures/*.png) [ -e "samples/figures/${name%.*}.sh" ] ;;

@@ -117,8 +117,13 @@ for file in lab/records/0001.csv lab/results/a.sh mine/run.sh my.csv my.toml .hi
 done
 run_there() {  # install | uninstall, into $scratch/there
   bindir=/b mandir=/m datadir=/d docdir=/doc TOOLS=bin DESTDIR=$scratch/there \
-    PROGRAM_PREFIX=${2-} "$copy/cmd/install/install.sh" "$1" >"$scratch/said" 2>&1
+    PROGRAM_PREFIX=${2-} "$copy/cmd/install/install.sh" ${1:+"$1"} >"$scratch/out" 2>"$scratch/said"
+  local status=$?
+  cat "$scratch/out" >>"$scratch/said"
+  return $status
 }
+run_there ''
+[ $? = 2 ] && [ ! -e "$scratch/there" ] || complain "install.sh without a word: $(find "$scratch/there")"
 run_there install || complain "install.sh: $(cat "$scratch/said")"
 own=$(cd "$scratch/there/doc" && find . -name '0001.csv' -o -name 'my.*' -o -name 'run.sh' -o -name a.sh)
 [ -z "$own" ] || complain "install copies $own"
@@ -150,6 +155,7 @@ for stranger in b/simulate doc/samples/CR.csv m/man1/smooth.1; do
     if [ $kind = file ]; then cp "$scratch/elsewhere" "$scratch/there/$stranger"
     else ln -s "$scratch/elsewhere" "$scratch/there/$stranger"; fi
     run_there install && complain "install replaces a stranger's $stranger"
+    [ ! -s "$scratch/out" ] || complain "install says it on standard output: $(cat "$scratch/out")"
     grep -qF "$scratch/there/$stranger" "$scratch/said" || complain "install says $(cat "$scratch/said")"
     [ "$(find "$scratch/there" ! -type d)" = "$scratch/there/$stranger" ] &&
       [ "$(cat "$scratch/elsewhere" "$scratch/there/$stranger" | sort -u)" = stranger ] ||

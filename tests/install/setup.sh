@@ -33,6 +33,8 @@ needs figures 'gnuplot-nox mandoc'
 needs figures/fig4.svg 'gnuplot-nox mandoc'
 needs 'report table1' 'gnuplot-nox mandoc'
 needs html mandoc
+needs 'table1 html' mandoc
+needs 'html deb' 'dpkg-dev mandoc'
 needs deb dpkg-dev
 needs static 'binutils xz-utils'
 needs static-arm64 'binutils g++-aarch64-linux-gnu qemu-user xz-utils'
@@ -86,7 +88,7 @@ without leave "$scratch:$PATH"
 
 # A word that is no goal: nothing is asked of anybody.
 stand_in sudo "touch '$scratch/asked'"
-for goals in tabel1 'table1 chekc' 'table. figures' figures/fgi4.svg bin/smoth results/x; do
+for goals in tabel1 'table1 chekc' 'table. figures' figures/fgi4.svg figures/x/fig4.svg bin/smoth bin/x/smooth results/x; do
   # shellcheck disable=SC2086
   said=$(PATH="$scratch:$PATH" make setup $goals 2>&1) && complain "make setup $goals: exit 0"
   grep -q '^setup: there is no goal ' <<<"$said" || complain "make setup $goals says $said"

@@ -40,11 +40,20 @@ while read -r name package; do
   [[ -n $listed && ( $version == "$listed" || $version == "$listed"[!0-9.]* ) ]] ||
     complain "the list has $name $listed, and it is $version"
   grep -qF "==== $name $listed," "$root/NOTICES" || complain "no notice of $name $listed"
+  # Where its source is: by the name and the version of the source, in brackets where they differ.
+  from=$(dpkg -s "$package" | sed -nE 's/^Source: //p')
+  [[ $from == *'('* ]] && version=${from#*(} && version=${version%)}
+  source=https://snapshot.debian.org/package/${from%% *}/$version/
+  [ -n "$from" ] || source=https://snapshot.debian.org/package/$package/$version/
+  grep -qF "\"$source\"" "$root/parts.cdx.json" && grep -qxF "$source" "$root/NOTICES" ||
+    complain "no address $source"
 done < <(printf '%s\n' 'CLI11 libcli11-dev' 'fmt libfmt-dev' 'GSL libgsl-dev' 'glibc libc6-dev' \
   "libstdc++ libstdc++-$(g++ -dumpversion)-dev")
 for words in "rolling $(bin/smooth --version | cut -d ' ' -f 3)," 'the authors of rolling' 'Henry Schreiner' 'Victor Zverovich' 'GNU LESSER GENERAL PUBLIC' 'RUNTIME LIBRARY EXCEPTION'; do
   grep -q "$words" "$root/NOTICES" || complain "the notices lack $words"
 done
+grep -qF '"expression": "GPL-3.0-or-later WITH GCC-exception-3.1"' "$root/parts.cdx.json" ||
+  complain "the licence of libstdc++: $(grep expression "$root/parts.cdx.json")"
 ! command -v python3 >/dev/null || python3 -m json.tool "$root/parts.cdx.json" >/dev/null ||
   complain "parts.cdx.json is no JSON"
 

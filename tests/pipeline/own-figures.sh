@@ -105,6 +105,16 @@ for figure in fig1 fig4 energy residuals; do
   samples/figures/$figure.sh $body "$scratch/few" >"$scratch/one.svg" 2>"$scratch/said" && ! grep -v '^smooth:' "$scratch/said" &&
     grep -q '^</svg>' "$scratch/one.svg" || complain "$figure of few rows: $(cat "$scratch/said")"
 done
+# What is left out is told, and nothing is if nothing was.
+simulate --scene samples/CR.toml --until 2 --dt 0.04 --columns t,x >"$scratch/whole"
+samples/figures/residuals.sh -K 0.5 -R 0.04 "$scratch/whole" 2>/dev/null >"$scratch/one.svg"
+grep '>left<' "$scratch/one.svg" && complain 'residuals of all rows: some are left out'
+grep -q '>left<' "$scratch/residuals.svg" || complain 'residuals of the sample: none is left out'
+# Of eight runs four are dashed.
+for run in 1 2 3 4 5 6 7 8; do cp samples/CR.csv "$scratch/run$run.csv"; done
+samples/figures/fig4.sh -K 0.5 -R 0.04 "$scratch"/run?.csv 2>/dev/null >"$scratch/eight.svg"
+for curve in 25 26 27 28 29 30 31 32; do part eight $curve | grep -m1 '<path' | grep -c dasharray || :; done | xargs >"$scratch/said"
+[ "$(cat "$scratch/said")" = '0 0 0 0 1 1 1 1' ] || complain "fig4 of eight runs: dashes $(cat "$scratch/said")"
 # The width of a window is one in seconds: a run with four times as many rows has the same points.
 simulate --scene samples/CR.toml --dt 0.01 --columns t,x >"$scratch/own-fine"
 simulate --scene samples/CR.toml --dt 0.04 --columns t,x >"$scratch/own-coarse"

@@ -43,6 +43,13 @@ f1_gtr15 0.744960 1e-5
 f2_gtr15 0.0302636 1e-5
 END
 
+# In the air of the standard of another rule, at its temperature: its f2 is the one that was measured.
+load -m 1512 --rotating 60.48 --standard cfr -T 20 -p 98.21 out >table || complain "$(cat said)"
+are <<'END'
+f2 0.030864198 1e-5
+f2_cfr 0.030864198 1e-5
+END
+
 # Both ways on a road that rises by 1 mm a metre: within four standard uncertainties; F of the pairs.
 size=0.1
 for i in 1 2 3; do run "10$i" --slope 0.001 >"out$i"; run "20$i" --slope -0.001 >"back$i"; done
