@@ -94,8 +94,7 @@ std::string in_our_words(const CLI::App& app, std::string_view said) {
   if (known) option = known->get_name(false, true);  // -K,--shape-factor
   if (said.find("override") != std::string_view::npos) return option + " takes no value";
   if (said.find("At Most") != std::string_view::npos) return option + " is given twice";
-  if (said.find("missing") != std::string_view::npos) return option + " needs a value";
-  return std::string(said);
+  return option + " needs a value";
 }
 
 /// An explanation in lines that fit beside the names of the options.
@@ -253,9 +252,9 @@ void Tool::scene() {
 }
 
 bool Tool::given(double Body::*number) const {
-  for (const BodyOption& option : body_options)
-    if (option.value == number) return given(long_name(option.names));
-  return false;
+  return std::ranges::any_of(body_options, [&](const BodyOption& option) {
+    return option.value == number && given(long_name(option.names));
+  });
 }
 
 namespace {

@@ -181,7 +181,7 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
   double noise = 1;
   double largest = 0;
   bool positive = true;
-  const Series rates(0, width, [&](double z) {
+  const auto rates_at = [&](double z) {
     Sums f{};
     const double u = speed(r_ + p.r_of(z));
     const double E = u / v0_;
@@ -197,7 +197,8 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
       f[2 + most + j] = E * f[2 + j];
     }
     return f;
-  });
+  };
+  const Series rates(0, width, rates_at);
   if (!positive) return {false, 0.5};
   for (std::size_t i = 0; i < values; ++i) {
     const double scale = rates.largest(i) + std::abs(sums_[i]) / width;

@@ -50,7 +50,7 @@ class Motion {
   /// The roll that this motion is, which has derivatives; nullptr for a solver.
   virtual Roll* roll() { return nullptr; }
   /// The number of evaluations of a differential equation by seek().
-  virtual unsigned long evaluations() const { return 0; }
+  virtual unsigned long evaluations() const = 0;
 };
 
 /// closed, exact: integrals over speed, by Roll, which are closed forms for some scenes. solver: a

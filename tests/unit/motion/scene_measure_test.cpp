@@ -70,6 +70,7 @@ TEST_CASE("measure: a failure says how", "[rolling]") {
     double velocity() override { return std::nan(""); }
     double acceleration() override { return 0; }
     double shift() override { return 0; }
+    unsigned long evaluations() const override { return 0; }
   };
   const Measured nan =
       measure([] { return std::make_unique<NoNumber>(); }, reference(scene(0.215), 5, 1));

@@ -13,6 +13,8 @@ TEST_CASE("Scene: the best method, and methods that do not fit the scene", "[rol
   Scene roll{};
   roll.body = {1.375, 0.04, 0.5}, roll.law = PowerLaw{1e-3, 0.2}, roll.v0 = 0.5;
   CHECK(best_method(roll).kind == Method::closed);
+  CHECK(start(roll, {Method::closed}, 1e-8)->roll() != nullptr);
+  CHECK(start(roll, {Method::solver}, 1e-8)->roll() == nullptr);
   roll.geometry = Geometry::exact;
   CHECK(best_method(roll).kind == Method::exact);
   CHECK_THROWS_AS(start(roll, {Method::closed}, 1e-8), Error);
