@@ -169,12 +169,14 @@ void require_roll(const Fitted& found) {
 
 /// How far v0 [m/s] of the first run may be off if a filter correlates the noise of the speeds, as
 /// y_i = AR y_(i-1) + (1 - AR) v_i, which delays them by AR/(1 - AR) rows. A mean of so many rows
-/// delays them by half of that, or not at all.
+/// delays them by half of that, or not at all. A run does not show a delay of more than a tenth of
+/// itself: in few rows AR may come out as anything.
 double error_of_delay(const Fitted& found) {
   const double AR = autoregression(found.minimum.f, found.minimum.theta.size(), found.model.rows());
   const std::vector<double>& t = found.model.runs().front().t;
   const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-  const double delay = std::max(AR, 0.0) / (1 - AR) * step;
+  const double rows = std::min(std::max(AR, 0.0) / (1 - AR), static_cast<double>(t.size()) / 10);
+  const double delay = rows * step;
   return std::abs(delay * found.model.roll(found.minimum.theta, 0).at(0).a);
 }
 
