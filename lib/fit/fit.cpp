@@ -98,7 +98,8 @@ bool all_known(const FitResult& result, const FitOptions& options) {
 /// Throws Error if the data do not determine the law or the slope of the mat. A slope slows the
 /// body down as the law does: runs in both directions separate them, or a law a v^b that is well
 /// known, but never a constant d0.
-void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found) {
+void require_determined(const FitResult& result, const FitOptions& options, const Fitted& found,
+                        bool agree) {
   const auto not_visited = [&](std::size_t number) {
     const auto at = std::ranges::find(result.not_visited, number, &Interval::number);
     return at == result.not_visited.end() ? nullptr : &*at;
@@ -117,8 +118,8 @@ void require_determined(const FitResult& result, const FitOptions& options, cons
   if (options.fit_wind && !both_ways(found) && (!has_errors || !result.not_visited.empty()))
     fail<OneWay>("a wind and the law slow the body down alike, and these runs go one way");
   if (options.fit_slope && !both_ways(found) &&
-      !(has_errors && result.law.power() && all_known(result, options) && !not_visited(0) &&
-        !not_visited(form.coefficients.size())))
+      !(agree && has_errors && result.law.power() && all_known(result, options) &&
+        !not_visited(0) && !not_visited(form.coefficients.size())))
     refuse_one_way(fmt::format(" ({} comes out as {})", form.coefficients.front().name,
                                shown(result.coefficients.front())));
   for (std::size_t j = form.coefficients.size(); j-- > 0;) {  // an exponent comes last
@@ -195,12 +196,12 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   require_roll(found);
   FitResult of_noise = result_of(found, rms, noise, shares);
   std::vector<Interval>& not_visited = of_noise.not_visited;
-  const bool of_minimum = !options.robust && (!agreement || agreement->agree());
+  const bool agree = !agreement || agreement->agree();
+  const bool of_minimum = !options.robust && agree;
   if (of_minimum && noise.kind != Errors::none && all_known(of_noise, options))
     not_visited = intervals_not_visited(found, noise, options);
-  require_determined(of_noise, options, found);
-  for (ErrorShare& share :
-       shares_of_inputs(route, runs, options, found, !agreement || agreement->agree()))
+  require_determined(of_noise, options, found, agree);
+  for (ErrorShare& share : shares_of_inputs(route, runs, options, found, agree))
     shares.push_back(std::move(share));
   if (!found.bias.empty()) shares.push_back({"bias", outer_square(found.bias)});
   if (found.error_of_clock > 0) {

@@ -136,8 +136,17 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   auto noise = noise_of({run}, joint.noise->added());
   require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
   const std::vector<double> start = all.theta_of_run(theta, r);
-  require_known(Model({run}, own), noise, start);
-  return fit_from({own, {start}}, {std::move(run)}, std::move(noise), options);
+  try {
+    require_known(Model({run}, own), noise, start);
+    return fit_from({own, {start}}, {run}, noise, options);
+  } catch (const Error&) {  // also where the joint law is far from that of the run
+    if (noise->known() || !options.fits_power()) throw;
+  }
+  FitOptions alone = options;
+  alone.fit_slope = alone.fit_wind = alone.fit_steepness = false;
+  const FirstGuess guess = first_guess({run}, alone);
+  require_known(Model({run}, guess.parameters), noise, guess.starts.front());
+  return fit_from(guess, {std::move(run)}, std::move(noise), alone);
 }
 
 Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> rows,
