@@ -12,9 +12,9 @@
 #                 and the momenta of each run add up within 5 %; 1 % of good folders fail, however many
 #                 runs they have
 #   -m M          mass [kg], one or one for each run
-#   --accept RUN  let this run pass; may be repeated
+#   --accept RUN  let this run, or a file without one, pass; may be repeated
 #
-# lab.sh names a file that it cannot use, and goes on. It replaces earlier results when all new ones are
+# lab.sh names a file that it cannot use, and goes on; with --check a table without a run fails. It replaces earlier results when all new ones are
 # ready. It does not touch a folder that it did not make.
 set -euo pipefail
 export LC_ALL=C
@@ -36,17 +36,25 @@ new=$scratch/new table=$scratch/new/table.txt failed=''
 mkdir "$new"
 : >"$new/made-by-lab"
 
-files=() used=()
+files=() used=() unread=()
 shopt -s nullglob
 for operand in ${operands[@]+"${operands[@]}"}; do
   if [ -d "$operand" ]; then files+=("$operand"/*); else files+=("$operand"); fi
 done
 roll() { smooth --coast -c "$c" ${use[@]+"${use[@]/#/--use=}"} "$@"; }
+# Notes and pictures may lie beside the runs; a table, or what should be one, is a run.
+holds_rows() {
+  [[ ! -f $1 || ${1,,} == *.csv || ${1,,} == *.tsv ]] || [ "$(grep -acE '^[-+"]?[0-9.]' "$1")" -ge 10 ]
+}
 for file in ${files[@]+"${files[@]}"}; do
   if roll -q -- "$file" >/dev/null 2>"$scratch/said"; then used+=("$file")
-  else say "passed over: ${file##*/}: $(tail -n 1 "$scratch/said")"; fi
+  else
+    say "passed over: ${file##*/}: $(tail -n 1 "$scratch/said")"
+    ! holds_rows "$file" || unread+=("${file##*/}")
+  fi
 done
-[ ${#used[@]} -gt 0 ] || wrong 'there is no run to be fitted'
+[ ${#used[@]} -gt 0 ] ||
+  wrong "there is no run to be fitted$([ "$c" = v ] || [ ${#files[@]} = 0 ] || echo '; if the files have speeds alone: -c v')"
 over=$((${#files[@]} - ${#used[@]}))
 case $over,$K,$R,$m in [1-9]*,*,*,*,*) wrong 'a file was passed over: which run has which K, R or m?' ;; esac
 roll -- "${used[@]}" >"$scratch/rolls"
@@ -56,7 +64,9 @@ runs=$(grep -c '^## run ' "$new/rolls")
 fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" --slope "$slope" "$@"; }
 accepted=() checks=() each=()
 if [ "$check" ]; then
-  accepted=(${accept[@]+"${accept[@]/#/--accept=}"})
+  for run in ${accept[@]+"${accept[@]}"}; do
+    [[ " ${unread[*]-} " == *" $run "* ]] || accepted+=("--accept=$run")
+  done
   checks=(--check ${accepted[@]+"${accepted[@]}"})
   [ "$c" = v ] || each=(-q "${checks[@]}")
 fi
@@ -70,6 +80,11 @@ fit --each ${each[@]+"${each[@]}"} "$new/rolls" >"$table" || {
   [ $status = 1 ] || say 'some runs have no law'
   failed=${check:+1}
 }
+for file in ${unread[@]+"${unread[@]}"}; do
+  [ "$check" ] && [[ " ${accept[*]-} " != *" $file "* ]] || continue
+  say "$file: a table without a run: --accept '$file' if it is none"
+  failed=1
+done
 law=$table
 if [ "$runs" -gt 1 ]; then
   law=$new/joint.txt

@@ -80,6 +80,25 @@ a() { awk -F '\t' -v run="$1" '$NF == run { print $1 }' results/table.txt; }
 [ -n "$(a 'a b.csv')" ] && [ "$(a 'a b.csv')" = "$(a "Ann's.csv")" ] ||
   complain 'a run that was replaced has its old law'
 
+echo 'nothing of a run' >notes.md
+mkdir class
+cp runs/10[123].csv notes.md class
+lab --check -K 0.5 -R 0.04 class || complain "notes fail the check: $(cat said)"
+# A table without a run fails the check, unless it is accepted.
+for table in empty.csv binary.csv start.txt frames.csv; do
+  case $table in
+    empty.csv) : >"class/$table" ;;
+    binary.csv) head -c 300 /bin/sh >"class/$table" ;;
+    start.txt) head -n 30 runs/101.csv >"class/$table" ;;
+    frames.csv) sed '1s/Time (s)/Frame/' runs/101.csv >"class/$table" ;;
+  esac
+  lab --check -K 0.5 -R 0.04 class && complain "$table passes: $(cat said)"
+  grep -qF "lab.sh: $table: a table without a run" said || complain "$table is not named: $(cat said)"
+  lab --check --accept $table -K 0.5 -R 0.04 class || complain "$table fails, though accepted: $(cat said)"
+  grep 'no run of this name' said && complain "$table is sought among the runs"
+  rm "class/$table"
+done
+
 # Two bodies, up and down a mat that is not level: one law, with a K for each and the slope fitted.
 mkdir two
 i=0
