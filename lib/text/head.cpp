@@ -180,6 +180,10 @@ class HeadReader {
     above_.push_back({std::move(line), lines_.number()});
   }
 
+  bool begins_rows(const std::string& line) {
+    return dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t')));
+  }
+
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
@@ -197,8 +201,7 @@ class HeadReader {
           keep(line.substr(line.find('#')));
           break;
         case LineKind::row:
-          if (before_ ? dialect_.holds_number(line)
-                      : dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t'))))
+          if (before_ ? dialect_.holds_number(line) : !lines_.is_title() && begins_rows(line))
             return true;
           if (before_) refuse_other_separator(line);
           keep(line);

@@ -147,6 +147,22 @@ bool Lines::is_blank_row(std::string_view line) const {
   return replace_all(line, {{"\"\"\"", "\""}, {"\"\"", ""}}).find(quote) == std::string::npos;
 }
 
+bool Lines::is_title() const {
+  constexpr std::string_view dividers = "\t;,";
+  double number = 0;
+  if (text_.find_first_of(dividers) < text_.size() ||
+      parse_number(text_.substr(0, text_.find(' ')), number))
+    return false;
+  std::string_view ahead = this->ahead();
+  int divided = 0;
+  for (int i = 0; i < 6 && !ahead.empty(); ++i) {
+    const auto end = std::min(ahead.find('\n'), ahead.size());
+    divided += ahead.substr(0, end).find_first_of(dividers) < end;
+    ahead.remove_prefix(std::min(end + 1, ahead.size()));
+  }
+  return divided >= 3;
+}
+
 bool Lines::another_run() const {
   if (!has_size_) return false;
   std::string_view ahead = this->ahead();

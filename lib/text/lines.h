@@ -67,6 +67,11 @@ class Lines {
     number_ = ++count_;
   }
 
+  /// True for a line of words above lines of cells, as `Vernier Format 2`: it begins with no
+  /// number, and of the next lines in memory three are divided by a tab, semicolon or comma, as it
+  /// is not.
+  bool is_title() const;
+
   /// True for a regular file with a blank line, and a row below it, in memory behind the present
   /// line.
   bool another_run() const;
