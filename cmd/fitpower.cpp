@@ -235,6 +235,7 @@ void remark_on(Tool& tool, Route route, std::vector<FitOfRuns>& fits, const Task
     left_out += one.result->left_out;
     if (compares && !task.options.robust) one.laws = compare_laws(route, one.runs, task.options);
     remark(tool, one, task.options, fits.size());
+    doubt_speed(tool, one);
     if (!task.with_report) continue;
     if (task.each) tool.say(fmt::format("run {}, the report:", one.runs.front().name));
     report(tool, one, *task.options.law);

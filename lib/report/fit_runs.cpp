@@ -12,6 +12,7 @@
 #include "cli/law_file.h"
 #include "contact/body.h"
 #include "selection/readings.h"
+#include "statistics/levels.h"
 #include "statistics/run_laws.h"
 
 namespace rolling {
@@ -228,6 +229,22 @@ void warn_of_copies(Tool& tool, Route route, const std::vector<Run>& runs) {
       tool.object(run.name,
                   "its readings are those of an earlier run: leave copies out, for each counts as "
                   "one more roll");
+  }
+}
+
+void doubt_speed(Tool& tool, const FitOfRuns& fit) {
+  for (std::size_t r = 0; r < fit.result->v0.size(); ++r) {
+    const double v0 = std::abs(fit.result->v0[r].value);
+    const Body& body = fit.runs[r].body;
+    if (std::abs(fit.result->law(v0)) > body.R) continue;  // told
+    const bool is_vehicle = body.K < levels::K_of_vehicles;
+    const double fast =
+        is_vehicle ? levels::fast_vehicle : levels::fast * std::sqrt(body.g * body.R);
+    if (v0 > fast)
+      tool.object(fit.runs[r].name,
+                  fmt::format("v0 comes out as {:.3g} m/s: are the units those of the file, as in "
+                              "v[km/h], and the times in seconds? See --use",
+                              v0));
   }
 }
 
