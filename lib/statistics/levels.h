@@ -71,9 +71,9 @@ inline constexpr double uncertain_a = 0.3;
 inline constexpr double least_b = -0.5, below_least_b = 3;
 /// D/R of rolling bodies, from steel on steel to a wheel in sand.
 inline constexpr double least_D_over_R = 1e-4;
-/// Above so many times sqrt(g R) a body that rolls as a whole hardly begins: a bowling ball has 9, a
-/// marble at 3 m/s 14. Vehicles, with a K below this one, have another limit [m/s]: a fast train has
-/// 83.
+/// Above so many times sqrt(g R) a body that rolls as a whole hardly begins: a bowling ball has 9,
+/// a marble at 3 m/s 14. Vehicles, with a K below this one, have another limit [m/s]: a fast train
+/// has 83.
 inline constexpr double fast = 15, fast_vehicle = 85, K_of_vehicles = 0.3;
 /// v0 above so many times the mean speed between any two readings is not measured.
 inline constexpr double v0_over_speeds = 10;
