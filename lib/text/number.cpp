@@ -6,20 +6,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#ifndef __cpp_lib_to_chars
-#include <fast_float/fast_float.h>
-#endif
+
+#include "text/from_chars.h"
 
 namespace rolling {
-
-// Where the C++ library cannot read doubles (libc++ before its version 20), fast_float can.
-#ifdef __cpp_lib_to_chars
-using std::from_chars;
-#else
-using fast_float::from_chars;
-#endif
 
 const char* read_number(const char* const begin, const char* const end, double& value) {
   // from_chars accepts no plus, but it does inf and nan.

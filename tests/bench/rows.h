@@ -23,13 +23,14 @@ inline void print_rows(std::vector<std::function<std::string()>> rows) {
   const auto work = [&] {
     for (std::size_t i; (i = next++) < tasks.size();) tasks[i]();
   };
-  std::vector<std::jthread> threads;
+  std::vector<std::thread> threads;
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
     threads.emplace_back(work);
   for (auto& text : texts) {
     std::fputs(text.get().c_str(), stdout);
     std::fflush(stdout);
   }
+  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace bench

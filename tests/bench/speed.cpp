@@ -25,7 +25,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -34,6 +33,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "text/from_chars.h"
 
 namespace {
 
@@ -73,10 +74,10 @@ void rows(Row row) {
       const char* feed = line;
       if (*line != '#') {
         double x, y;
-        const auto first = std::from_chars(line + (*line == '"'), last, x);
+        const auto first = rolling::from_chars(line + (*line == '"'), last, x);
         const char* next = first.ptr + (*first.ptr == '"') + 1;
         next += *next == '"';
-        const auto second = std::from_chars(next, last, y);
+        const auto second = rolling::from_chars(next, last, y);
         if (first.ec != std::errc() || second.ec != std::errc()) std::_Exit(2);
         feed = static_cast<const char*>(
             std::memchr(second.ptr, '\n', static_cast<std::size_t>(end - second.ptr)));
