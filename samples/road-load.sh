@@ -66,7 +66,8 @@ for option in $chosen; do
   esac
 done
 [ "$slope" ] || [ ${#back[@]} = 0 ] || slope=fit
-[ "$slope$height" ] || { slope=0 && echo "road-load.sh: runs one way: the road is taken for level" >&2; }
+one_way=''
+[ "$slope$height" ] || { slope=0 && one_way=1; }
 road=(${height:+--height "$height"} ${x0:+--x0 "$x0"} ${slope:+--slope "$slope"})
 [ "$wind" != fit ] || [ "$measured" = 0 ] || wrong '--wind fit: the wind is corrected by the fit, not by --anemometer'
 make_scratch
@@ -88,6 +89,11 @@ for i in "${!out[@]}"; do
   coast "${out[i]}" 1
 done >"$scratch/runs"
 for file in ${back[@]+"${back[@]}"}; do echo; coast "$file" -1; done >>"$scratch/runs"
+if [ "$one_way" ]; then
+  ! awk -F '\t' '!/^#/ && NF { $2 < 0 ? down = 1 : up = 1 } END { exit !(up && down) }' "$scratch/runs" ||
+    wrong 'runs both ways: give those of the way back behind --back, or say --slope fit'
+  echo "road-load.sh: runs one way: the road is taken for level" >&2
+fi
 K=$(awk "BEGIN { print $rotating / $m }")
 fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"

@@ -68,6 +68,12 @@ tail -n 1 table | awk -v slowest="$slowest" '{ exit !($1 - 5 >= slowest && $1 - 
   complain "the last pair, with $slowest km/h at the end: $(tail -n 1 table)"
 load -m 1512 --rotating 60.48 out[1-3] --back back[1-3] | cmp - table || complain '--back before all files is another load'
 
+# Runs of both signs are not one way.
+awk -F , 'NR == 1 { print; next } { print $1 ",-" $2 }' back1 >signed
+load -m 1512 --rotating 60.48 out1 signed >table && complain 'two ways as one'
+grep -qx 'road-load.sh: runs both ways: give those of the way back behind --back, or say --slope fit' said || complain "two ways: $(cat said)"
+load -m 1512 --rotating 60.48 --slope fit out1 signed >table || complain "two ways with --slope fit: $(cat said)"
+
 # A run is named by its file alone: rounded speeds cause a warning that names it.
 awk -F , 'NR == 1 { print; next } { printf "%s,%.0f\n", $1, $2 }' out1 >coarse
 load -m 1512 --rotating 60.48 coarse >/dev/null
