@@ -158,13 +158,15 @@ inline void Reader::check_time(const NeededColumns::Needed& needed, double t) {
     ++equal_times_;
     return;
   }
-  if (t <= last_time_)
-    refuse(needed,
-           fmt::format("does not come after {}{}; {}", last_time_,
-                       needed.to_si.changes() || by_clock ? " s" : "",
-                       t < last_time_ ? "put a blank line before another run, or say --use t=COLUMN"
-                                      : "smooth --equal-times mean (or first) makes one row of "
-                                        "rows of one time"));
+  if (t <= last_time_) {
+    std::string way_out = "put a blank line before another run, or say --use t=COLUMN";
+    if (t == last_time_)
+      way_out = "smooth --equal-times mean (or first) makes one row of rows of one time";
+    if (t == last_time_ && !needed_.assumed().empty())
+      way_out = "if the times are in another column, --use t=COLUMN; else " + way_out;
+    refuse(needed, fmt::format("does not come after {}{}; {}", last_time_,
+                               needed.to_si.changes() || by_clock ? " s" : "", way_out));
+  }
   note_jump(needed, t);
   // The roundings of two times, 2^-53 t each, are then more than 2^-13 of the step between them; or
   // the times are beyond 3000 years, where milliseconds since 1970 are.

@@ -54,7 +54,9 @@ TEST_CASE("reader: a second file that is not there is refused, and where() is st
 }
 
 static const std::string joined =
-    "; smooth --equal-times mean (or first) makes one row of rows of one time";
+    "smooth --equal-times mean (or first) makes one row of rows of one time";
+static const std::string unnamed =
+    "; if the times are in another column, --use t=COLUMN; else " + joined;
 
 TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]") {
   CHECK(rows({"0 1\n\n0 2\n1 3\n\n0 4\n"}, run(2)) == "0 2 | 1 3");
@@ -68,7 +70,7 @@ TEST_CASE("reader: --run picks one, by its printed number or its place", "[text]
         "line that is no row, and a blank line before another run");
   CHECK(rows({"0 1\n\n0 bad\n\n0 4\n"}, run(3), {"t"}) == "0");
   CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2)) ==
-        "FILE:2: field 1 (t): '1' does not come after 1" + joined);
+        "FILE:2: field 1 (t): '1' does not come after 1" + unnamed);
   CHECK(rows({"1 1\n1 2\n\n0 4\n"}, run(2), {"v"}) == "4");
   CHECK(rows({"t,v (odd)\n0,1\n\nt,v\n0,4\n"}, run(2)).find("its unit 'odd'") < 60);
   CHECK(rows({"0 1\n0 1 2\n\n0 4\n"}, run(2)) == "FILE:2: 3 fields where the first row has 2");
@@ -113,12 +115,12 @@ TEST_CASE("reader: --run picks one run and no other", "[text]") {
 }
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
-  CHECK(rows({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0" + joined);
+  CHECK(rows({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0" + unnamed);
   CHECK(rows({"1 1\n0.5 2\n"}) ==
         "FILE:2: field 1 (t): '0.5' does not come after 1; put a blank line before another run, "
         "or say --use t=COLUMN");
   CHECK(rows({"# t[ms] v\n500 1\n500 2\n"}) ==
-        "FILE:3: field 1 (t): '500' does not come after 0.5 s" + joined);
+        "FILE:3: field 1 (t): '500' does not come after 0.5 s; " + joined);
   CHECK(rows({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
   CHECK(rows({"-1e308 1\n1e308 2\n"}) == "-1e+308 1 | 1e+308 2");
   CHECK(rows({"0 1\n0 2\n"}, {}, {"v"}) == "1 | 2");  // who does not need t does not judge it
