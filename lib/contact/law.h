@@ -138,7 +138,8 @@ class Law {
   /// the points continue, only for the trial steps of a solver.
   Shift at(double v, double* by_c) const {
     if (points_) return points_->at(v);
-    Shift s = (of_search_ ? form_->searched : form_->shift)(c_.data(), v / v_unit_, by_c);
+    const LawForm& known = *form_;  // NOLINT(clang-analyzer-core.NullDereference): no points
+    Shift s = (of_search_ ? known.searched : known.shift)(c_.data(), v / v_unit_, by_c);
     if (wind_ != 0) blow(v / v_unit_, s, by_c);
     for (std::size_t j = 0; j < size(); ++j) by_c[j] *= D_unit_;
     return {D_unit_ * s.D, D_unit_ * s.by_log_v};
