@@ -315,4 +315,16 @@ for picture in fig4 run; do
     complain "samples/$picture.svg is not what samples/figures/fig4.sh draws: see $0"
 done
 
+# Where labels stand: "too long" beside the tip of the arrow that is too long (x = 415 + 1.43 * 200), and
+# the name of the energy axis at the middle of its frame.
+place() {  # NAME WORDS: x and y of that label
+  tr -d '\n\t' <"$scratch/$1.svg" | sed 's/<g /\n<g /g' | grep -F -e "$2" | grep -oE 'translate\([0-9.]+,[0-9.]+' |
+    head -n 1 | tr -c '0-9.\n' ' '
+}
+draw fig2
+draw turn
+place fig2 'too long' | awk '{ exit !($1 > 701 && $1 < 741) }' || complain "fig2: 'too long' is not beside its arrow"
+place turn 'energy / mJ' | awk -v frame="$(axes turn)" '{ split(frame, at, " "); exit !(($2 - (at[2] + at[4]) / 2) ^ 2 < 4) }' ||
+  complain 'turn: the name of the energy axis is not at its middle'
+
 exit $wrong
