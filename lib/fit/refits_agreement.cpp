@@ -126,8 +126,8 @@ CommonError take_slope(std::vector<OwnLaw>& laws, double log_v, double freedom, 
 
 /// The law of runs that disagree becomes their scattered_mean(); where the slope is fitted, that at
 /// the slope at which they agree best. Returns the covariance of a, b and the slope; or nothing,
-/// and does nothing, if the law stays that of the joint fit: as if another number of the scene is
-/// fitted.
+/// and does nothing, if the law stays that of the joint fit: another number of the scene is fitted
+/// too, for example.
 std::optional<Matrix> take_means(std::vector<OwnLaw> laws, const FitOptions& options,
                                  Fitted& joint) {
   const double freedom = static_cast<double>(laws.size()) - 1 - options.fit_slope;

@@ -105,8 +105,8 @@ struct FitResult {
   std::vector<Interval> not_visited = {};         ///< in place of 1.96 standard errors
 };
 
-/// True if the noise is autocorrelated, by a small p. The standard errors allow for that, but in
-/// few rows.
+/// True if the noise is autocorrelated, by a small p. The standard errors allow for that if there
+/// are levels::least_tested rows.
 inline bool noise_is_correlated(const FitResult& r) { return r.whiteness <= levels::not_white; }
 
 /// For a fit by loglog. Noise makes the logarithms of D too low, by rms^2 / 2 on average (to second

@@ -14,8 +14,8 @@
 #   -m M          mass [kg], one or one for each run
 #   --accept RUN  let this run, or a file without one, pass; may be repeated
 #
-# lab.sh names a file that it cannot use, and goes on; with --check a table without a run fails. It replaces earlier results when all new ones are
-# ready. It does not touch a folder that it did not make.
+# lab.sh names a file that it cannot use, and goes on; with --check a table without a run fails. It replaces
+# earlier results when all new ones are ready. It does not touch a folder that it did not make.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -42,6 +42,11 @@ for operand in ${operands[@]+"${operands[@]}"}; do
   if [ -d "$operand" ]; then files+=("$operand"/*); else files+=("$operand"); fi
 done
 roll() { smooth --coast -c "$c" ${use[@]+"${use[@]/#/--use=}"} "$@"; }
+is_among() {  # WORD LIST...
+  local word=$1 one
+  for one in "${@:2}"; do [ "$one" != "$word" ] || return 0; done
+  return 1
+}
 # Notes and pictures may lie beside the runs; a table, or what should be one, is a run.
 holds_rows() {
   [[ ! -f $1 || ${1,,} == *.csv || ${1,,} == *.tsv ]] || [ "$(grep -acE '^[-+"]?[0-9.]' "$1")" -ge 10 ]
@@ -65,7 +70,7 @@ fit() { fitpower --digits 6 --route $route -K "$K" -R "$R" --slope "$slope" "$@"
 accepted=() checks=() each=()
 if [ "$check" ]; then
   for run in ${accept[@]+"${accept[@]}"}; do
-    [[ " ${unread[*]-} " == *" $run "* ]] || accepted+=("--accept=$run")
+    is_among "$run" ${unread[@]+"${unread[@]}"} || accepted+=("--accept=$run")
   done
   checks=(--check ${accepted[@]+"${accepted[@]}"})
   [ "$c" = v ] || each=(-q "${checks[@]}")
@@ -81,7 +86,7 @@ fit --each ${each[@]+"${each[@]}"} "$new/rolls" >"$table" || {
   failed=${check:+1}
 }
 for file in ${unread[@]+"${unread[@]}"}; do
-  [ "$check" ] && [[ " ${accept[*]-} " != *" $file "* ]] || continue
+  [ "$check" ] && ! is_among "$file" ${accept[@]+"${accept[@]}"} || continue
   say "$file: a table without a run: --accept '$file' if it is none"
   failed=1
 done

@@ -99,6 +99,11 @@ for table in empty.csv binary.csv start.txt frames.csv; do
   rm "class/$table"
 done
 
+# A name with a blank is one name: it does not accept the file that is called like its end.
+: >class/b.csv
+lab --check --accept 'a b.csv' -K 0.5 -R 0.04 class && complain "'a b.csv' accepts b.csv: $(cat said)"
+rm class/b.csv
+
 # Two bodies, up and down a mat that is not level: one law, with a K for each and the slope fitted.
 mkdir two
 i=0
