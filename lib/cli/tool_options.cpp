@@ -241,9 +241,8 @@ void Tool::doubt_body() {
     doubts_.push_back(
         fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}", m, R, m / 1000));
   if (K > 0 && K < 0.1 && (R == 0.4 || R == 0.5))
-    doubts_.push_back(
-        fmt::format("K = {} and R = {} m: if they are swapped, write -K {} -R {}", K, R, R, K));
-  for (const std::string& doubt : doubts_) warn(doubt);
+    warn(fmt::format("K = {} and R = {} m: if they are swapped, write -K {} -R {}", K, R, R, K));
+  for (const std::string& doubt : doubts_) object("", doubt);
 }
 
 void Tool::scene() {
@@ -260,10 +259,11 @@ bool Tool::given(double Body::*number) const {
 namespace {
 
 /// What to do about a word that is no option: the option that is meant, if the word is its
-/// beginning or hardly another one; capital letters and underscores do not count.
+/// beginning or hardly another one; capital letters, underscores and dashes in front do not count.
 std::string way_to_option(const CLI::App& app, const std::string& word) {
   if (word.ends_with(".toml")) return "a scene is given by --scene";
   const auto plain = [](std::string name) {
+    name.erase(0, name.find_first_not_of('-'));
     for (char& c : name) c = c == '_' ? '-' : static_cast<char>(std::tolower(c));
     return name;
   };
@@ -271,9 +271,10 @@ std::string way_to_option(const CLI::App& app, const std::string& word) {
   std::string meant;
   std::size_t least = 3;
   const auto compare = [&](const std::string& option) {
-    const bool is_cut_off = name.size() > 4 && option.starts_with(name);
-    const std::size_t changes = is_cut_off ? 0 : edit_distance(name, plain(option));
-    if (changes >= std::min(least, option.size() > 2 ? option.size() - 2 : 1)) return;
+    const std::string known = plain(option);
+    const bool is_cut_off = name.size() > 2 && known.starts_with(name);
+    const std::size_t changes = is_cut_off ? 0 : edit_distance(name, known);
+    if (changes >= std::min(least, known.size())) return;
     least = changes;
     meant = option;
   };
@@ -281,6 +282,9 @@ std::string way_to_option(const CLI::App& app, const std::string& word) {
     for (const std::string& known : option->get_snames()) compare("-" + known);
     for (const std::string& known : option->get_lnames()) compare("--" + known);
   }
+  for (const BodyOption& of : body_options)
+    for (const std::string& unused : split_names(of.names, ','))
+      if (least > 0 && name == plain(unused)) return unused + " is not needed here";
   return meant.empty() ? "see --help" : "do you mean " + meant + "?";
 }
 

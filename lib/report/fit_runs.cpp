@@ -46,6 +46,17 @@ void warn_of_lost_history(Tool& tool, const std::vector<Run>& runs) {
                               " are: the fit goes on as if no filter were known");
 }
 
+/// Objects to positions and speeds that contradict each other: one of them has another unit.
+void compare_ways(Tool& tool, const Run& run) {
+  if (run.t.empty() || run.x.empty() || run.v.empty()) return;
+  const double ratio = ways_ratio(run.t, run.x, run.v);
+  if (ratio > levels::ways_differ || ratio < 1 / levels::ways_differ)
+    tool.object(run.name,
+                fmt::format("x covers {:.3g} times the way that v covers: is one of t, x and v in "
+                            "another unit, or v not the velocity along x? See --use",
+                            ratio));
+}
+
 struct FitRows {
   std::vector<OwnLaw> laws;
   std::vector<Run> runs;  ///< the names and bodies of the runs, without readings
@@ -174,7 +185,7 @@ std::vector<Run> read_runs(Tool& tool, Reader& in, Route route, bool needs_x) {
     Run& run = runs.emplace_back();
     run.name = in.run_name();
     tool.know_run(run.name);
-    if (!in.history().empty())  // the `##` lines are compared with the other columns
+    if (is_trajectory(route) || !in.history().empty())  // they are compared with these columns
       for (const Quantity q : {Quantity::t, Quantity::x, Quantity::v, Quantity::D})
         if (const std::string name(name_of(q)); in.find(name) && !slots[q])
           slots[q] = q == Quantity::t ? in.need(name) : in.want(name);
@@ -182,6 +193,7 @@ std::vector<Run> read_runs(Tool& tool, Reader& in, Route route, bool needs_x) {
       for (const Quantity q : all_quantities)
         if (slots[q]) run[q].push_back(in[*slots[q]]);
     set_filters(tool, in, route, run);
+    compare_ways(tool, run);
   }
   warn_of_lost_history(tool, runs);
   return runs;
@@ -195,6 +207,7 @@ bool take_pulses(Tool& tool, std::vector<Run>& runs) {
     ways.push_back(*way);
   }
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    runs[r].x.clear();
     for (std::size_t i = 0; i < runs[r].t.size(); ++i)
       runs[r].x.push_back(ways[r] * static_cast<double>(i));
     std::vector<double>().swap(runs[r].v);

@@ -99,6 +99,7 @@ class Remarks {
         tool_.object("", found + ways_to_agree(), fit_.runs[r_.agreement->run].name);
     }
     if (noisy_) causes();
+    negative_b();
     const LawForm& law = r_.law.form();
     const bool other_law = fit_.laws && fit_.laws->against >= levels::another_law;
     if (noisy_ && !spoilt_) intervals();
@@ -150,7 +151,7 @@ class Remarks {
           "is probably wrong: --use gives another one, as 't=COLUMN[UNIT]'",
           D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted);
       if (beyond) object(run.name, text);
-      else tool_.warn(run.name, text);
+      else tool_.object(run.name, text);  // steel on steel is near it
       break;
     }
   }
@@ -180,6 +181,14 @@ class Remarks {
     }
   }
 
+  void negative_b() {
+    if (r_.b + levels::below_least_b * r_.sigma_b < levels::least_b)
+      object(run_,
+             fmt::format("b is {:.3g} +- {:.2g}: no mat does this, but a hand, a wall, an incline "
+                         "or a magnet at the end of the roll does; cut it off",
+                         r_.b, r_.sigma_b));
+  }
+
   void causes() {
     if (fit_.route == Route::loglog && logarithms_biased(r_))
       tool_.warn(run_,
@@ -199,11 +208,6 @@ class Remarks {
                        "readings were {}: fit the rows before or after that",
                        jump->time, std::abs(jump->by), jump->by > 0 ? "small" : "large",
                        p_of(jump->p), jump->by > 0 ? "lost" : "there twice"));
-    if (r_.b + levels::below_least_b * r_.sigma_b < levels::least_b)
-      object(run_,
-             fmt::format("b is {:.3g} +- {:.2g}: no mat does this, but a hand, a wall, an incline "
-                         "or a magnet at the end of the roll does; cut it off",
-                         r_.b, r_.sigma_b));
     spoilt_ |= std::ranges::any_of(fit_.runs, [&](const Run& run) { return rounding(run); });
   }
 
@@ -385,10 +389,10 @@ void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
         fmt::format("too few independent readings to compare {} with other laws", law.formula));
   const double least = std::ranges::min(fits, {}, &LawFit::aicc).aicc;
   for (const LawFit& one : fits) tool.say(described(one, least));
-  tool.say(
-      fmt::format("{} better than D = {}",
-                  against <= levels::no_better_law ? "no law that was tried is" : "another law is",
-                  law.formula));
+  tool.say(against <= levels::no_better_law
+               ? fmt::format("no law that was tried is better than D = {} by more than {} in AICc",
+                             law.formula, levels::no_better_law)
+               : fmt::format("another law is better than D = {}", law.formula));
 }
 
 }  // namespace rolling

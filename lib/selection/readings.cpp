@@ -288,4 +288,22 @@ std::optional<double> way_between_pulses(std::span<const double> t, std::span<co
   return since ? since : way_by(t, v, 0);
 }
 
+double ways_ratio(std::span<const double> t, std::span<const double> x, std::span<const double> v) {
+  std::vector<double> by_x{0};
+  std::vector<double> by_v{0};
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double of_x = x[i] - x[i - 1];
+    const double of_v = (v[i] + v[i - 1]) / 2 * (t[i] - t[i - 1]);
+    if (!std::isfinite(of_x) || !std::isfinite(of_v)) continue;
+    by_x.push_back(by_x.back() + of_x);
+    by_v.push_back(by_v.back() + of_v);
+  }
+  if (by_x.size() < 10) return NAN;
+  const std::size_t half = by_x.size() / 2;
+  std::vector<double> ratios;
+  for (std::size_t i = half; i < by_x.size(); ++i)
+    ratios.push_back(std::abs((by_x[i] - by_x[i - half]) / (by_v[i] - by_v[i - half])));
+  return median(ratios);
+}
+
 }  // namespace rolling

@@ -75,6 +75,8 @@ inline constexpr double least_D_over_R = 1e-4;
 /// a marble at 3 m/s 14. Vehicles, with a K below this one, have another limit [m/s]: a fast train
 /// has 83.
 inline constexpr double fast = 15, fast_vehicle = 85, K_of_vehicles = 0.3;
+/// The columns x and v of a run contradict each other by more than this factor of the way.
+inline constexpr double ways_differ = 1.25;
 /// v0 above so many times the mean speed between any two readings is not measured.
 inline constexpr double v0_over_speeds = 10;
 

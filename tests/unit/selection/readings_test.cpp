@@ -311,3 +311,22 @@ TEST_CASE("readings: a counter goes back over nine tenths of its range", "[signa
     CHECK(start_over(run).has_value() == (back > 0.9 * 59));
   }
 }
+
+TEST_CASE(
+    "readings: the way of the positions beside that of the speeds, whatever few readings say") {
+  std::vector<double> t, x, v;
+  for (int i = 0; i < 60; ++i) {
+    t.push_back(0.05 * i);
+    v.push_back(0.5 - 0.25 * t.back());  // it turns at 2 s
+    x.push_back(0.3 + 0.5 * t.back() - 0.125 * t.back() * t.back());
+  }
+  CHECK(ways_ratio(t, x, v) == Approx(1).epsilon(1e-12));
+  for (double& speed : v) speed *= -1 / 3.6;
+  CHECK(ways_ratio(t, x, v) == Approx(3.6).epsilon(1e-12));
+  x[20] = 0;
+  v[33] = NAN;
+  x[47] = 9;
+  CHECK(ways_ratio(t, x, v) == Approx(3.6).epsilon(1e-2));
+  CHECK(std::isnan(ways_ratio(std::span(t).first(9), x, v)));
+  CHECK(std::isfinite(ways_ratio(std::span(t).first(10), x, v)));
+}
