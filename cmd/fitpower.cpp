@@ -98,11 +98,10 @@ void give_road(Tool& tool, Bodies& bodies, const Road* road, const FitOptions& o
 
 /// Refuses a limit of speed above all rows.
 void refuse_slow(const std::vector<Run>& runs, const FitOptions& options) {
-  double fastest = NAN;
-  for (const Run& run : runs)
-    for (const double v : run.v) fastest = std::fmax(fastest, std::abs(v));
-  if (fastest < options.min_speed)
-    fail<OptionError>("--min-speed {}: the fastest row has {:.3g} m/s", options.min_speed, fastest);
+  double v = NAN;
+  for (const Run& run : runs) v = std::fmax(v, fastest(run));
+  if (v < options.min_speed)
+    fail<OptionError>("--min-speed {}: the fastest row has {:.3g} m/s", options.min_speed, v);
 }
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message

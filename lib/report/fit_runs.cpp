@@ -219,6 +219,12 @@ bool take_pulses(Tool& tool, std::vector<Run>& runs) {
   return true;
 }
 
+double fastest(const Run& run) {
+  double v = NAN;
+  for (const double of_row : run.v) v = std::fmax(v, std::abs(of_row));
+  return v;
+}
+
 void Bodies::give_to(std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Run& run = runs[i];

@@ -30,6 +30,9 @@ std::vector<Run> read_runs(Tool&, Reader&, Route, bool needs_x = false);
 /// says so, and returns true.
 bool take_pulses(Tool&, std::vector<Run>&);
 
+/// The largest speed of a run without its sign; NaN if no speed is known.
+double fastest(const Run&);
+
 /// What the options give of the runs.
 struct Bodies {
   std::vector<Body> all{{}};        ///< one, or one for each run

@@ -126,7 +126,7 @@ class Remarks {
     const double K = fit_.runs.front().body.K;
     const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
     ways += std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
-                                                    : "; if bodies differ, a K for each";
+                                                    : "; if bodies differ, a K and an R for each";
     return ways + "; for a law of each run, --each";
   }
 
@@ -146,19 +146,15 @@ class Remarks {
       const double R = contact_of(fit_.route, run, options_).body.R;
       const bool beyond = R > 0 && D > R;  // D of a table alone has no R
       if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
-      const std::string text = fmt::format(
-          "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of t or {} "
-          "is probably wrong: --use gives another one, as 't=COLUMN[UNIT]'",
-          D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted);
-      if (beyond) object(run.name, text);
-      else tool_.object(run.name, text);  // steel on steel is near it
+      spoilt_ |= beyond;  // steel on steel is not far from the other limit
+      tool_.object(
+          run.name,
+          fmt::format(
+              "D is {:.3g} m at the first speed, {:.3g} m/s: {} the radius {} m; the unit of t or "
+              "{} is probably wrong: --use gives another one, as 't=COLUMN[UNIT]'",
+              D, v, beyond ? "beyond" : "less than a ten-thousandth of", R, fitted));
       break;
     }
-  }
-  static double fastest(const Run& run) {
-    double v = 0;
-    for (const double of_row : run.v) v = std::max(v, std::abs(of_row));
-    return v;
   }
 
   /// A body that comes back on a mat that is taken for level.
@@ -189,7 +185,17 @@ class Remarks {
                          r_.b, r_.sigma_b));
   }
 
+  void beginning() {
+    const auto found = disturbed_beginning(fit_.route, fit_.runs, options_);
+    if (found && found->p <= levels::beginning / fits_)
+      object(fit_.runs[found->run].name,
+             fmt::format("the first {} rows follow another motion ({}), as if a hand were still "
+                         "on: cut off {:.2g} s",
+                         found->rows, p_of(found->p), found->time));
+  }
+
   void causes() {
+    if (tool_.checks) beginning();
     if (fit_.route == Route::loglog && logarithms_biased(r_))
       tool_.warn(run_,
                  "the noise of D biases its logarithms by more than the uncertainty of the line: "
@@ -328,12 +334,6 @@ class Remarks {
       without |= r_.coefficients[j].sigma == 0 && !options_.fixed[j];
     if (without) object(run_, "too few readings for standard uncertainties: fit more");
     if (!noisy_) return;
-    const auto beginning = disturbed_beginning(fit_.route, fit_.runs, options_);
-    if (beginning && beginning->p <= levels::beginning / fits_)
-      object(fit_.runs[beginning->run].name,
-             fmt::format("the first {} rows follow another motion ({}), as if a hand were still "
-                         "on: cut off {:.2g} s",
-                         beginning->rows, p_of(beginning->p), beginning->time));
     if (r_.whiteness <= levels::not_white / fits_ && !r_.clock_jump) tell_not_white();
   }
 

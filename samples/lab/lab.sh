@@ -110,7 +110,7 @@ if [ "$check" ] && [ "$m" ]; then
       >"$new/energy.txt" || { [ $? = 1 ] || rm "$new/energy.txt"; failed=1; }
 fi
 [ -z "$check" ] || [ "$failed" ] ||
-  echo "passed: $runs runs$([ $over = 0 ] || echo ", files passed over: $over")" >&2
+  echo "passed: $runs run$([ "$runs" = 1 ] || echo s)$([ $over = 0 ] || echo ", files passed over: $over")" >&2
 
 replace=1
 mkdir -p "$o"
