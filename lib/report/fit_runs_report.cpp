@@ -55,8 +55,8 @@ std::string budget(const FitResult& r) {
 }
 
 /// The text with the value; nothing for NaN, which a fit of as many parameters as rows has.
-std::string known(const char* text, double value) {
-  return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value);
+std::string known(const char* text, double value, const char* more = "") {
+  return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value, more);
 }
 
 /// "D = d0 + d1 v: d0 = 0.0012 +- 1e-05, d1 = 0.0005 +- 3e-05; corr d0 d1 -0.93; AICc 1.2"
@@ -378,8 +378,10 @@ void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options, std::si
 
 void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
   const FitResult& r = *fit.result;
+  const char* few = r.n < levels::least_tested ? "; few rows hardly show correlated noise" : "";
   tool.say(fmt::format("n {} ({} of freedom), errors {}{}", r.n, counted(r.freedom, "degree"),
-                       kinds.at(r.errors), known(" (Ljung and Box: p = {:.2g})", r.whiteness)));
+                       kinds.at(r.errors),
+                       known(" (Ljung and Box: p = {:.2g}{})", r.whiteness, few)));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
   if (!fit.laws) return;
   const std::vector<LawFit>& fits = fit.laws->fits;
