@@ -34,7 +34,7 @@ options '-m --rotating --no-f1! --back! --slope --height --x0 --wind --column...
 [ "$back" != ${#operands[@]} ] || wrong '--back needs the files of the way back'
 out=("${operands[@]:0:${back:-${#operands[@]}}}") back=("${operands[@]:${#out[@]}}")
 TM=$test_mass measured=$anemometer svg=$o
-[ ${#out[@]} -gt 0 ] || wrong 'there is no run'
+[ ${#out[@]} -gt 0 ] || wrong '--back takes all files that follow it: write OUT... in front of it'
 [ "$m" ] && [ "$rotating" ] || wrong 'say the masses in kg: -m 1500 --rotating 60, or --rotating 0'
 for number in "$m" "$rotating" "$T" "$p" "$TM" "$measured"; do
   [ -z "$number" ] || is_number "$number" || wrong "$number is not a number"
@@ -52,12 +52,13 @@ case $standard in
   cfr) pressure=98.21 ;;
   *) wrong "--standard $standard: gtr15 or cfr" ;;
 esac
-! awk "BEGIN { exit !($rotating > 0 && $rotating < $m / 1000) }" ||
-  wrong "--rotating $rotating: the equivalent mass in kg, not its share"
+! awk "BEGIN { exit !($rotating > 0 && $rotating < $m / 200) }" ||
+  wrong "--rotating $rotating is less than 0.5 % of -m $m: both are in kg, and wheels have 1 to 5 %"
 for option in $chosen; do
   case $option in
     -T | -p | --standard | --test-mass | --anemometer)
-      [ "$T" ] && [ "$p" ] || wrong "$option goes with -T and -p: give both" ;;
+      [ "$T" ] || wrong "$option needs -T"
+      [ "$p" ] || wrong "$option needs -p" ;;
     -o)
       [ "${svg%.svg}" != "$svg" ] || wrong "-o $svg: the figure is an SVG, FILE.svg"
       for file in "${operands[@]}"; do
@@ -99,7 +100,7 @@ fit() {
   fitpower --route velocity --law "$law" -K "$K" -R 1 ${wind:+--wind "$wind"} "${road[@]}" "$@"
 }
 # The check says whether f1 may be left out.
-fit ${no_f1:+--check} "$scratch/runs" >"$scratch/row" || [ -s "$scratch/row" ] || exit 1
+fit ${no_f1:+--check} "$scratch/runs" >"$scratch/row" || [ -s "$scratch/row" ] || exit 2
 
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,

@@ -45,10 +45,12 @@ says man/rolling.7 "$(smooth -q --coast "$scratch/run.csv" | fitpower -q -K 0.5 
 
 # README: the row of its first command in words, with C_rr; and of what the samples were made.
 says README.md "$(smooth -q --coast samples/CR.csv | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
-  printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** At 1 m/s the force of the mat acts %.2f mm ahead of the lowest point, and C_rr = D/R = %.3f.",
+  printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** Extrapolated to 1 m/s, the force of the mat acts %.2f mm ahead of the lowest point, and C_rr = D/R = %.3f.",
     1e3 * $1, 1e5 * $2, $3, 1e3 * $4, 1e3 * $1, $1 / 0.04 }')"
 says README.md "$(awk '/^coefficient/ { a = $3 } /^exponent/ { b = $3 }
   END { printf "**All samples are simulated**, from a and b of the paper: here %.2f mm and %s.", 1e3 * a, b }' samples/CR.toml)"
+# Its line of a road load is that of the recipe, which runs.
+says README.md "$(awk '$1 == "f0" && $4 == "N" { printf "`f0  %.1f  %s  N`", $2, $3; exit }' man/rolling-recipes.7)"
 
 # What table1.sh prints says that its runs are simulated, and by how much one body's law is wrong for the other.
 samples/table1.sh >"$scratch/table1" || complain 'table1.sh fails'

@@ -104,12 +104,17 @@ awk -F '\t' '
 on='-m 1512 --rotating 60'
 cp out1 run.svg
 for words in '' 'out1' '-m 1512 out1' '-m 1512 --rotating x out1' "$on --standard sae out1" "$on nowhere" \
-  "$on out1 --back" '-m 1512 --rotating 0.04 out1' "$on -T 20 out1" "$on -p 100 out1" \
+  "$on out1 --back" '-m 1512 --rotating 7.5 out1' "$on --back out1" "$on -T 20 out1" "$on -p 100 out1" \
   "$on --test-mass 1500 out1" "$on -o out1 out1" "$on -o run.svg run.svg"; do
   # shellcheck disable=SC2086
   load $words >table && complain "accepted: $words"
   [ ! -s table ] && [ -s said ] || complain "$words: $(cat table said)"
 done
+load $on --back out1 >/dev/null
+grep -q 'write OUT... in front of it' said || complain "all behind --back: $(cat said)"
+load $on -T 20 out1 >/dev/null
+grep -qx 'road-load.sh: -T needs -p' said || complain "-T alone: $(cat said)"
+load -m 1512 --rotating 7.6 out1 >/dev/null || complain "light wheels: $(cat said)"
 cmp out1 run.svg || complain 'a run is overwritten'
 load $on out1 --back out1 >/dev/null
 grep -q 'those of an earlier run' said || complain "a run and its copy both ways: $(cat said)"
