@@ -43,7 +43,7 @@ static constexpr BodyOption body_options[] = {
     {"-g,--gravity", &Body::g, &Body::sigma_g, positive, "gravity g [m/s^2] (9.81)", 1, 30,
      "g = {} m/s^2: on the earth it is 9.81 m/s^2, on the moon 1.62 m/s^2"},
     {"--slope", &Body::slope, &Body::sigma_slope, any_number,
-     "rise of the mat in metres per metre of growing x (0)", -0.8, 0.8,
+     "slope tan(theta) of the mat, above 0 if x grows uphill (0)", -0.8, 0.8,
      "slope = {}: if that is per cent, write {:.6g}", 1e-2},
     {"--wind", &Body::wind, nullptr, any_number,
      "speed of the air towards falling x [m/s] (0): d2 v^2 becomes d2 (v + W)|v + W|", -30, 30,

@@ -17,7 +17,7 @@ struct Body {
   double R;          ///< radius [m]
   double K;          ///< shape factor: 1/2 solid cylinder, 1 thin shell
   double g = 9.81;   ///< gravity [m/s^2]
-  double slope = 0;  ///< of the mat: tan theta, its rise in metres per metre of growing x
+  double slope = 0;  ///< of the mat: tan theta, above 0 if x grows uphill
   /// The standard uncertainties, each in the unit of its number; 0 if none is given.
   double sigma_R = 0, sigma_K = 0, sigma_g = 0, sigma_slope = 0;
   double wind = 0;             ///< speed of the air towards falling x [m/s], for a law with d2 v^2

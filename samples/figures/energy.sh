@@ -6,7 +6,7 @@
 #
 #   energy.sh [OPTION]... [FILE] >energy.svg      the cylinder on rubber, or your own run
 #
-#   --slope S          rise of the mat in metres a metre along growing x (0)
+#   --slope S          slope tan(theta) of the mat, above 0 if x grows uphill (0)
 #   --seconds S        window of the parabolas whose slope is the velocity (0.84)
 takes='--slope --seconds' seconds=0.84 needs='-K 0.5 -R 0.04 -m 1.375'
 . "$(dirname "$0")/draw.sh"

@@ -6,7 +6,7 @@
 #
 #   fig1.sh [OPTION]... [FILE]... >fig1.svg      the four experiments, or your own runs
 #
-#   --slope S          rise of the mat in metres a metre along growing x (0)
+#   --slope S          slope tan(theta) of the mat, above 0 if x grows uphill (0)
 #   --seconds S        width of the window (0.44)
 takes='--slope --seconds' seconds=0.44
 . "$(dirname "$0")/draw.sh"

@@ -6,7 +6,7 @@
 #
 #   fig4.sh [OPTION]... [FILE]... >fig4.svg      the four experiments, or your own runs
 #
-#   --slope S          rise of the mat in metres a metre along growing x (0); a roll that turns needs it
+#   --slope S          slope tan(theta) of the mat, above 0 if x grows uphill (0); a roll that turns needs it
 #   --seconds S        width of the window over which velocities are smoothed (0.44)
 takes='--slope --seconds' seconds=0.44
 . "$(dirname "$0")/draw.sh"

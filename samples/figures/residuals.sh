@@ -8,7 +8,7 @@
 #
 #   residuals.sh [OPTION]... [FILE]... >residuals.svg      the cylinder on rubber, or your own runs
 #
-#   --slope S          rise of the mat in metres a metre along growing x (0)
+#   --slope S          slope tan(theta) of the mat, above 0 if x grows uphill (0)
 #   --by N             use the law of run number N for all runs, with its 95 % limits; v0 and x0 are those
 #                      of each run
 takes='--slope --by' by=''

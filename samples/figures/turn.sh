@@ -7,7 +7,7 @@
 #
 #   turn.sh [OPTION]... [FILE] >turn.svg      this ball, or your own run
 #
-#   --slope S          rise of the mat in metres a metre along growing x (fit: found by the fit)
+#   --slope S          slope tan(theta) of the mat, above 0 if x grows uphill (fit: found by the fit)
 #   --seconds S        window of the parabolas whose slope is the velocity (0.84)
 takes='--slope --seconds' seconds=0.84 slope=fit needs='-K 0.4 -R 0.0127 -m 0.067'
 . "$(dirname "$0")/draw.sh"

@@ -50,7 +50,7 @@ says README.md "$(smooth -q --coast samples/CR.csv | fitpower -q -K 0.5 -R 0.04 
 says README.md "$(awk '/^coefficient/ { a = $3 } /^exponent/ { b = $3 }
   END { printf "**All samples are simulated**, from a and b of the paper: here %.2f mm and %s.", 1e3 * a, b }' samples/CR.toml)"
 # Its line of a road load is that of the recipe, which runs.
-says README.md "$(awk '$1 == "f0" && $4 == "N" { printf "`f0  %.1f  %s  N`", $2, $3; exit }' man/rolling-recipes.7)"
+says README.md "$(awk '$1 == "f0" && $4 == "N" { printf "`f0 %.1f %s N`", $2, $3; exit }' man/rolling-recipes.7)"
 
 # What table1.sh prints says that its runs are simulated, and by how much one body's law is wrong for the other.
 samples/table1.sh >"$scratch/table1" || complain 'table1.sh fails'
@@ -109,7 +109,7 @@ cmp -s <(fitpower -q -K 0.5 -R 0.04 "$scratch/roll") \
   complain 'fitpower: another default'
 
 # smooth(1): a window of seconds reaches a sixteenth of a step beyond its half.
-says man/smooth.1 'and a sixteenth of a step'
+says man/smooth.1 'and 1/16 of a step'
 for step in 1.06 1.07; do
   awk -v h="$step" 'BEGIN { print "t v"; print 0, 0; print h, 3; print 2 * h, 9 }' | smooth -q --seconds 2 | sed -n '4p' | cut -f 2
 done | tr '\n' ' ' | grep -qx '4 3 ' || complain 'smooth --seconds: another reach'
@@ -133,7 +133,7 @@ fitpower -q --law d0+d2*v^2 -K 0.04 -R 1 --slope fit "$scratch/way0.001" "$scrat
 
 # fitpower(1): coverage of noise alone, as `make coverage` writes it: of the rows in which few runs are
 # told, loglog and runs that scatter aside, and what rolling-fits(7) excepts: few rows, and rounding alone.
-says man/fitpower.1 '92 to 97 of 100 intervals of 95 % hold the truth, or there is a warning'
+says man/fitpower.1 'the 95 % intervals hold the truth in 92 to 97 % of runs, or there is a warning'
 awk '/ (position|velocity|shift) +[A-Zb]/ && NF > 24 && $(NF - 4) < 0.2 && !/scatter|[568] rows|no other noise|to 1 cm/ {
     for (i = NF - 12; i <= NF - 8; i += 4) { n++; if ($i < 0.915 || $i >= 0.98) { print; bad = 1 } } }
   END { exit bad || n < 80 }' samples/coverage.txt || complain 'coverage.txt: another coverage'
