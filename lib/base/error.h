@@ -5,72 +5,47 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
-#include <string_view>
+#include <string>
 
 namespace rolling {
 
+/// What an error is about: by this the tools add a place or a way out to its message.
+enum ErrorKind {
+  PlainError,     ///< the present row of the input, if there is one
+  CompleteError,  ///< the message is complete: no row is to be named beside it
+  ReaderGone,     ///< complete: nobody reads the output any more
+  InputError,     ///< complete: it names the file, and the line where there is one
+  OptionError,    ///< complete: it is one of the options, whatever has been read
+  // Numeric code knows no option: it throws what the readings show, and cli/tool.cpp has the way
+  // out.
+  ReadingOff,  ///< one of the readings is off the motion of the others
+  // The readings show no motion of the kind that is asked for: perhaps the columns are not those
+  // that are meant.
+  MotionError,
+  NotOneRoll,     ///< they are hardly those of one roll: no law comes out
+  OneWay,         ///< they go one way, where a slope or a wind acts as the law does
+  LooseExponent,  ///< they do not determine the exponent
+  NoFreeRoll,     ///< there is no roll among them
+  WayBack         ///< they are of a body that comes back
+};
+
 struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  Error(ErrorKind of, const std::string& text) : std::runtime_error(text), kind(of) {}
+  bool is_complete() const { return kind >= CompleteError && kind <= OptionError; }
+  bool is_of_motion() const { return kind >= MotionError; }
+
+  ErrorKind kind;
 };
 
-/// An error whose message is complete: no row of the input is to be named beside it.
-struct CompleteError : Error {
-  using Error::Error;
-};
-/// Nobody reads the output any more.
-struct ReaderGone : CompleteError {
-  using CompleteError::CompleteError;
-};
-/// It names the file, and the line where there is one.
-struct InputError : CompleteError {
-  using CompleteError::CompleteError;
-};
-/// It is one of the options, whatever has been read.
-struct OptionError : CompleteError {
-  using CompleteError::CompleteError;
-};
-
-// Numeric code knows no option: it throws what the readings show, and cli/tool.cpp has the way out.
-
-/// The readings show no motion of the kind that is asked for: perhaps the columns are not those
-/// that are meant.
-struct MotionError : Error {
-  using Error::Error;
-};
-/// They are hardly those of one roll: no law comes out.
-struct NotOneRoll : MotionError {
-  using MotionError::MotionError;
-};
-/// They go one way, where a slope or a wind acts as the law does.
-struct OneWay : MotionError {
-  using MotionError::MotionError;
-};
-/// They do not determine the exponent.
-struct LooseExponent : MotionError {
-  using MotionError::MotionError;
-};
-/// There is no roll among them.
-struct NoFreeRoll : MotionError {
-  using MotionError::MotionError;
-};
-/// They are of a body that comes back.
-struct WayBack : MotionError {
-  using MotionError::MotionError;
-};
-/// One of them is off the motion of the others.
-struct ReadingOff : Error {
-  using Error::Error;
-};
-
-template <typename Kind>
-[[noreturn]] void throw_formatted(fmt::string_view text, fmt::format_args args) {
-  throw Kind(fmt::vformat(text, args));
+[[noreturn]] inline void throw_formatted(ErrorKind kind, fmt::string_view text,
+                                         fmt::format_args args) {
+  throw Error(kind, fmt::vformat(text, args));
 }
 
-/// Throws Error, or another kind, with a formatted message.
-template <typename Kind = Error, typename... Args>
+/// Throws an error of this kind, with a formatted message.
+template <ErrorKind kind = PlainError, typename... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> text, const Args&... args) {
-  throw_formatted<Kind>(text, fmt::make_format_args(args...));
+  throw_formatted(kind, text, fmt::make_format_args(args...));
 }
 
 /// What `work` returns. An Error that names no file becomes an InputError at this place, a text
@@ -79,9 +54,8 @@ template <typename Place, typename Work>
 auto located(const Place& place, const Work& work) {
   try {
     return work();
-  } catch (const InputError&) {
-    throw;
   } catch (const Error& error) {
+    if (error.kind == InputError) throw;
     fail<InputError>("{}: {}", place(), error.what());
   }
 }

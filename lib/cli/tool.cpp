@@ -12,8 +12,6 @@
 #include <exception>
 #include <map>
 #include <new>
-#include <typeindex>
-#include <typeinfo>
 #include <utility>
 
 #include "text/column.h"
@@ -189,20 +187,20 @@ void note_memory_has_run_out() {
 const std::string choose_roll =
     ": do all rows belong to one free roll that slows down (up a slope and back: --slope fit)? "
     "Choose it with smooth --coast, or with --from and --to";
-const std::map<std::type_index, std::string> ways_out{
-    {typeid(NotOneRoll), choose_roll},
-    {typeid(OneWay), ": add runs in the other direction; their speeds are negative"},
-    {typeid(LooseExponent), choose_roll + "; or fix it, --fix b=0"},
-    {typeid(NoFreeRoll), ": choose the roll by its times (--from, --to)"},
-    {typeid(WayBack),
+const std::map<ErrorKind, std::string> ways_out{
+    {NotOneRoll, choose_roll},
+    {OneWay, ": add runs in the other direction; their speeds are negative"},
+    {LooseExponent, choose_roll + "; or fix it, --fix b=0"},
+    {NoFreeRoll, ": choose the roll by its times (--from, --to)"},
+    {WayBack,
      ": on a slope, --slope S or --slope fit; else the roll alone (smooth --coast, or --to)"},
-    {typeid(ReadingOff),
+    {ReadingOff,
      ": look at it, and leave it out (smooth --outliers or --from), or fit with --robust"}};
 
 }  // namespace
 
 std::string Tool::told(const Error& error) const {
-  const auto way_out = ways_out.find(typeid(error));
+  const auto way_out = ways_out.find(error.kind);
   if (way_out == ways_out.end()) return error.what();
   std::string text = error.what() + way_out->second;
   const auto is_coast = [](const std::string& line) {
@@ -238,14 +236,14 @@ std::string Tool::message_of(const Error& error) const {
   const auto at_row = [](const auto& reader) { return !reader->where().empty(); };
   const auto last = std::find_if(readers_.rbegin(), readers_.rend(), at_row);
   const Reader* const reader = last == readers_.rend() ? rows_ : last->get();
-  if (reader == nullptr || dynamic_cast<const CompleteError*>(&error)) return told(error);
+  if (reader == nullptr || error.is_complete()) return told(error);
   const Reader& in = *reader;
   std::string text = in.where();
   if (!text.empty()) text += ": ";
   text += told(error);
-  const bool of_motion = dynamic_cast<const MotionError*>(&error);
-  if (of_motion && !fixed_values().empty()) text += fmt::format(" (given: {})", fixed_values());
-  if (of_motion && !in.assumed().empty())
+  if (error.is_of_motion() && !fixed_values().empty())
+    text += fmt::format(" (given: {})", fixed_values());
+  if (error.is_of_motion() && !in.assumed().empty())
     text += fmt::format(" ({}; for other columns say --use, as --use x=2)", in.assumed());
   return text;
 }
@@ -270,17 +268,14 @@ int Tool::run(int argc, char** argv, const std::function<int()>& work) {
     standard_input_taken_ = take_scene();
     doubt_body();
     return finish(work());
-  } catch (const ReaderGone& error) {
-    if (!ends_by_pipe) {
-      say(error.what());
-    } else {
+  } catch (const Error& error) {
+    if (error.kind == ReaderGone && ends_by_pipe) {
       say("");
       std::signal(SIGPIPE, SIG_DFL);
       std::raise(SIGPIPE);
     }
-  } catch (const Error& error) {
     // What was odd in the rows may be why no roll fits them; message_of() says what was assumed.
-    if (rows_ != nullptr && dynamic_cast<const MotionError*>(&error))
+    if (rows_ != nullptr && error.is_of_motion())
       for (const std::string& warning : rows_->warnings())
         if (warning != rows_->assumed()) warn(warning);
     say(message_of(error));

@@ -125,8 +125,9 @@ Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
   fit.model = Model(std::move(runs), start.parameters);
   try {
     fit.minimum = search(fit.model, fit.noise, start.starts, options);
-  } catch (const NotOneRoll&) {
-    if (options.fit_slope && go_one_way(fit.model)) refuse_one_way();
+  } catch (const Error& error) {
+    const bool not_one = error.kind == NotOneRoll;
+    if (not_one && options.fit_slope && go_one_way(fit.model)) refuse_one_way();
     throw;
   }
   read_off(fit);
