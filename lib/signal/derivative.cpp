@@ -4,11 +4,12 @@
 #include <algorithm>
 
 namespace rolling {
+namespace {
 
 // Newton's form of the parabola through three samples: slopes s1, s2 over steps h1, h2, and the
 // divided difference c = (s2 - s1) / (h1 + h2). The derivatives are s1 - c h1 at the first sample,
 // s1 + c h1 = s2 - c h2 at the middle one, and s2 + c h2 at the last.
-double CentralDerivative::value(const Windows& window) {
+double central_slope(const Windows& window) {
   require_slope(window.size());
   const Sample& first = window.sample(window.begin());
   const Sample& middle = window.sample(window.begin() + 1);
@@ -25,7 +26,7 @@ double CentralDerivative::value(const Windows& window) {
 
 // The order of operations is that of Vernier's programs, so that the results agree to the last bit:
 // the weight multiplies the rise before the division.
-double VernierDerivative::value(const Windows& window) {
+double vernier_slope(const Windows& window) {
   require_slope(window.size());
   const std::size_t i = window.at();
   const std::size_t last = window.end() - 1;
@@ -37,11 +38,11 @@ double VernierDerivative::value(const Windows& window) {
   return (slope(1, 3) + slope(2, 2) + slope(3, 1)) / 6;
 }
 
-double PascoDerivative::value(const Windows& window) {
+double pasco_slope(const Windows& window) {
   const std::size_t i = window.at();
   const std::size_t before = i - window.begin();
   const std::size_t after = window.end() - 1 - i;
-  if (before == 0 || after == 0) return CentralDerivative::value(window);
+  if (before == 0 || after == 0) return central_slope(window);
   const auto rise = [&](std::size_t k) {
     const Sample& a = window.sample(i - k);
     const Sample& b = window.sample(i + k);
@@ -52,5 +53,11 @@ double PascoDerivative::value(const Windows& window) {
   const Sample two = rise(2);
   return (one.y + two.y) / (one.t + two.t);
 }
+
+}  // namespace
+
+WindowedSignal central_derivative() { return {{3, 0}, Windows::Ends::stay, central_slope}; }
+WindowedSignal vernier_derivative() { return {{7, 0}, Windows::Ends::cut, vernier_slope}; }
+WindowedSignal pasco_derivative() { return {{5, 0}, Windows::Ends::cut, pasco_slope}; }
 
 }  // namespace rolling

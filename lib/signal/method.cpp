@@ -5,7 +5,7 @@
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "signal/derivative.h"
@@ -16,16 +16,11 @@
 namespace rolling {
 namespace {
 
-template <typename Filter>
-std::unique_ptr<Signal> make(const SignalOptions& options) {
-  if constexpr (std::is_constructible_v<Filter, Width>)
-    return std::make_unique<Filter>(options.width);
-  else return std::make_unique<Filter>();
-}
+using Options = const SignalOptions&;
 
-template <SavitzkyGolay::What what>
-std::unique_ptr<Signal> make(const SignalOptions& options) {
-  return std::make_unique<SavitzkyGolay>(options.width, options.order, what);
+template <typename Filter>
+std::unique_ptr<Signal> kept(Filter filter) {
+  return std::make_unique<Filter>(std::move(filter));
 }
 
 constexpr std::size_t whole_run = std::numeric_limits<std::size_t>::max();
@@ -33,14 +28,16 @@ constexpr std::size_t whole_run = std::numeric_limits<std::size_t>::max();
 // The spline is not linear, because its parameter depends on the readings.
 constexpr SignalMethod all[] = {
     // name, reach, linear, shift-invariant, has an order, make
-    {"mean", 0, true, true, false, make<MovingMean>},
-    {"median", 0, false, false, false, make<MovingMedian>},
-    {"savgol", 0, true, false, true, make<SavitzkyGolay::What::value>},
-    {"central", 1, true, false, false, make<CentralDerivative>},
-    {"savgol", 0, true, false, true, make<SavitzkyGolay::What::slope>},
-    {"spline", whole_run, false, false, false, make<SplineDerivative>},
-    {"vernier", 3, true, false, false, make<VernierDerivative>},
-    {"pasco", 2, true, false, false, make<PascoDerivative>},
+    {"mean", 0, true, true, false, [](Options o) { return kept(moving_mean(o.width)); }},
+    {"median", 0, false, false, false, [](Options o) { return kept(moving_median(o.width)); }},
+    {"savgol", 0, true, false, true,
+     [](Options o) { return kept(savitzky_golay(o.width, o.order, 0)); }},
+    {"central", 1, true, false, false, [](Options) { return kept(central_derivative()); }},
+    {"savgol", 0, true, false, true,
+     [](Options o) { return kept(savitzky_golay(o.width, o.order, 1)); }},
+    {"spline", whole_run, false, false, false, [](Options) { return kept(SplineDerivative()); }},
+    {"vernier", 3, true, false, false, [](Options) { return kept(vernier_derivative()); }},
+    {"pasco", 2, true, false, false, [](Options) { return kept(pasco_derivative()); }},
 };
 
 }  // namespace

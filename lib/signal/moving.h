@@ -86,24 +86,19 @@ class ExactSum {
 };
 
 /// Each mean is within 1 ulp of the exact mean of its window, independent of earlier readings.
-class MovingMean : public WindowedSignal<MovingMean> {
- public:
-  /// Throws Error for an even width.
-  explicit MovingMean(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
-  double value(const Windows& window) { return sum_.of(window).over(window.size()); }
+/// Throws Error for an even width.
+inline WindowedSignal moving_mean(Width width) {
+  return {width, Windows::Ends::shrink, [sum = Sliding<ExactSum>()](const Windows& window) mutable {
+            return sum.of(window).over(window.size());
+          }};
+}
 
- private:
-  Sliding<ExactSum> sum_;
-};
-
-class MovingMedian : public WindowedSignal<MovingMedian> {
- public:
-  /// Throws Error for an even width.
-  explicit MovingMedian(Width width) : WindowedSignal(width, Windows::Ends::shrink) {}
-  double value(const Windows& window) { return sorted_.of(window).median(); }
-
- private:
-  Sliding<SortedWindow> sorted_;
-};
+/// Throws Error for an even width.
+inline WindowedSignal moving_median(Width width) {
+  return {width, Windows::Ends::shrink,
+          [sorted = Sliding<SortedWindow>()](const Windows& window) mutable {
+    return sorted.of(window).median();
+          }};
+}
 
 }  // namespace rolling

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -37,10 +39,14 @@ inline void require_slope(std::size_t samples) {
   if (samples == 1) fail("a run of one row has no derivative");
 }
 
-/// A filter whose output depends on a window around each sample: Of::value(window).
-template <typename Of>
+/// A filter whose output is a function of the window around each sample.
 class WindowedSignal : public Signal {
  public:
+  using Value = std::function<double(const Windows&)>;
+  /// Throws Error for an even width.
+  WindowedSignal(Width width, Windows::Ends ends, Value value)
+      : windows_(width, ends), value_(std::move(value)) {}
+
   std::span<const double> push(double t, double y) final {
     windows_.push(t, y);
     return known();
@@ -50,17 +56,15 @@ class WindowedSignal : public Signal {
     return known();
   }
 
- protected:
-  WindowedSignal(Width width, Windows::Ends ends) : windows_(width, ends) {}
-
  private:
   std::span<const double> known() {
     known_.clear();
-    while (windows_.next()) known_.push_back(static_cast<Of*>(this)->value(windows_));
+    while (windows_.next()) known_.push_back(value_(windows_));
     return known_;
   }
 
   Windows windows_;
+  Value value_;
   std::vector<double> known_;
 };
 

@@ -47,8 +47,8 @@ TEST_CASE(
     text += fmt::format("{}\t{}\n", t.back(), v.back());
   }
   const Body body{1, 0.04, 0.83};
-  const std::vector<double> smooth = through(MovingMean({.samples = 11, .seconds = 0}), t, v),
-                            a = through(CentralDerivative(), t, smooth);
+  const std::vector<double> smooth = through(moving_mean({.samples = 11, .seconds = 0}), t, v),
+                            a = through(central_derivative(), t, smooth);
 
   const TemporaryFile file(text);
   const std::string command = "smooth " + file.name() +

@@ -16,7 +16,7 @@ using namespace rolling;
 namespace {
 
 std::vector<double> differentiated(const std::vector<double>& t, const std::vector<double>& y) {
-  CentralDerivative derivative;
+  WindowedSignal derivative = central_derivative();
   std::vector<double> out;
   for (std::size_t i = 0; i < t.size(); ++i)
     for (const double value : derivative.push(t[i], y[i])) out.push_back(value);
@@ -117,7 +117,7 @@ TEST_CASE("derivative: two samples have one slope, one sample has none", "[signa
 }
 
 TEST_CASE("derivative: each is known one sample later", "[signal]") {
-  CentralDerivative derivative;
+  WindowedSignal derivative = central_derivative();
   CHECK(derivative.push(0, 0).empty());
   CHECK(derivative.push(1, 1).empty());
   CHECK(derivative.push(2, 4).size() == 2);

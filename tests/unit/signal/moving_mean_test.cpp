@@ -23,7 +23,7 @@ Series even_times(std::size_t n) {
 }
 
 Series smoothed(const Series& t, const Series& y, Width window) {
-  MovingMean mean(window);
+  WindowedSignal mean = moving_mean(window);
   Series out;
   for (std::size_t i = 0; i < t.size(); ++i)
     for (const double value : mean.push(t[i], y[i])) out.push_back(value);
@@ -164,14 +164,14 @@ TEST_CASE("moving_mean: rounding of the times does not decide a window of second
 }
 
 TEST_CASE("moving_mean: a mean is known as soon as its window is", "[signal]") {
-  MovingMean mean({5, 0});
+  WindowedSignal mean = moving_mean({5, 0});
   CHECK(mean.push(0, 1).size() == 1);  // the first is its own window
   CHECK(mean.push(1, 1).empty());
   CHECK(mean.push(2, 1).size() == 1);
   CHECK(mean.push(3, 1).empty());
   for (int i = 4; i < 50; ++i) CHECK(mean.push(i, 1).size() == 1);
   CHECK(mean.finish().size() == 2);
-  MovingMean seconds({0, 2});
+  WindowedSignal seconds = moving_mean({0, 2});
   CHECK(seconds.push(0, 1).size() == 1);
   CHECK(seconds.push(1, 1).empty());
   CHECK(seconds.push(1.5, 1).size() ==
@@ -182,8 +182,8 @@ TEST_CASE("moving_mean: a mean is known as soon as its window is", "[signal]") {
 }
 
 TEST_CASE("moving_mean: an even width is refused", "[signal]") {
-  CHECK_THROWS_AS(MovingMean({10, 0}), Error);
-  CHECK_THROWS_AS(MovingMean({0, 0}), Error);
+  CHECK_THROWS_AS(moving_mean({10, 0}), Error);
+  CHECK_THROWS_AS(moving_mean({0, 0}), Error);
 }
 
 namespace {
@@ -210,7 +210,7 @@ double largest_error_in_ulps(std::size_t rows) {
         return 0.1;
     }
   };
-  MovingMean mean({width, 0});
+  WindowedSignal mean = moving_mean({width, 0});
   std::vector<double> y;  // the last `width`
   double largest = 0;
   std::size_t known = 0;

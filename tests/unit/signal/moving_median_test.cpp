@@ -10,7 +10,7 @@ using namespace rolling;
 namespace {
 
 Series medians(const Series& t, const Series& y, Width width) {
-  return through(MovingMedian(width), t, y);
+  return through(moving_median(width), t, y);
 }
 Series medians(const Series& y, std::size_t width) {
   return medians(even_times(y.size()), y, {width, 0});
@@ -61,5 +61,5 @@ TEST_CASE("moving_median: half of a window of outliers changes nothing, and time
 }
 
 TEST_CASE("moving_median: an even width is refused", "[signal]") {
-  CHECK_THROWS_AS(MovingMedian({10, 0}), Error);
+  CHECK_THROWS_AS(moving_median({10, 0}), Error);
 }

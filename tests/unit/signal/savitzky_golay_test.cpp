@@ -11,16 +11,16 @@ using namespace rolling;
 
 namespace {
 
-constexpr auto value = SavitzkyGolay::What::value, slope = SavitzkyGolay::What::slope;
+constexpr std::size_t value = 0, slope = 1;  // the derivatives
 
 Series filtered(const Series& t, const Series& y, std::size_t width, std::size_t order,
-                SavitzkyGolay::What what) {
-  return through(SavitzkyGolay({width, 0}, order, what), t, y);
+                std::size_t what) {
+  return through(savitzky_golay({width, 0}, order, what), t, y);
 }
 
 /// The weights of the middle of a run on even times with step 1: what the filter makes of an
 /// impulse, seen backwards.
-Series weights(std::size_t width, std::size_t order, SavitzkyGolay::What what) {
+Series weights(std::size_t width, std::size_t order, std::size_t what) {
   Series y(3 * width, 0);
   y[3 * width / 2] = 1;
   const auto out = filtered(even_times(y.size(), 1), y, width, order, what);
@@ -159,7 +159,7 @@ TEST_CASE("savitzky_golay: least squares, as elimination in long double has it",
 }
 
 TEST_CASE("savitzky_golay: no order that is taken loses digits", "[signal]") {
-  for (std::size_t order = 0; order <= SavitzkyGolay::most_order; ++order)
+  for (std::size_t order = 0; order <= most_order; ++order)
     for (const std::size_t width :
          {order / 2 * 2 + 1, order / 2 * 2 + 3, std::size_t{31}, std::size_t{201}})
       for (const bool even : {true, false}) {
@@ -178,8 +178,8 @@ TEST_CASE("savitzky_golay: no order that is taken loses digits", "[signal]") {
         }
       }
   for (const std::size_t order : {11u, 50u, 74u})
-    CHECK_THROWS_AS(SavitzkyGolay({order + 1 + order % 2, 0}, order, value), Error);
-  CHECK_THROWS_AS(SavitzkyGolay({0, 100}, 11, slope), Error);
+    CHECK_THROWS_AS(savitzky_golay({order + 1 + order % 2, 0}, order, value), Error);
+  CHECK_THROWS_AS(savitzky_golay({0, 100}, 11, slope), Error);
 }
 
 TEST_CASE(
@@ -212,8 +212,8 @@ TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change 
   const Series t = uneven_times(50), y = noise(50, 9);
   for (const Width width : {Width{9, 0}, Width{0, 0.5}}) {
     for (const auto what : {value, slope}) {
-      const auto ahead = through(SavitzkyGolay(width, 2, what), t, y);
-      const auto back = through(SavitzkyGolay(width, 2, what), backwards(t, -1), backwards(y));
+      const auto ahead = through(savitzky_golay(width, 2, what), t, y);
+      const auto back = through(savitzky_golay(width, 2, what), backwards(t, -1), backwards(y));
       check_close(backwards(back, what == slope ? -1 : 1), ahead, 1e-11);
     }
   }
@@ -221,7 +221,7 @@ TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change 
 
 TEST_CASE("savitzky_golay: windows of seconds are those of samples on even times", "[signal]") {
   const Series t = even_times(100), y = noise(100, 1);
-  check_close(through(SavitzkyGolay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value),
+  check_close(through(savitzky_golay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value),
               1e-12);
 }
 
@@ -233,12 +233,12 @@ TEST_CASE("savitzky_golay: few samples", "[signal]") {
   check_close(filtered({0, 1, 3}, {0, 1, 9}, 5, 2, slope), {0, 2, 6}, 1e-14);
   check_close(filtered({0, 1, 3}, {5, -1, 9}, 5, 2, value), {5, -1, 9},
               1e-14);  // one less than there are: through all
-  CHECK_THROWS_AS(SavitzkyGolay({10, 0}, 2, value), Error);
-  CHECK_THROWS_AS(SavitzkyGolay({5, 0}, 5, value), Error);
+  CHECK_THROWS_AS(savitzky_golay({10, 0}, 2, value), Error);
+  CHECK_THROWS_AS(savitzky_golay({5, 0}, 5, value), Error);
 }
 
 TEST_CASE("savitzky_golay: a number is known half a window later", "[signal]") {
-  SavitzkyGolay filter({5, 0}, 2, value);
+  WindowedSignal filter = savitzky_golay({5, 0}, 2, value);
   for (int i = 0; i < 4; ++i) CHECK(filter.push(i, 1).empty());
   CHECK(filter.push(4, 1).size() == 3);
   for (int i = 5; i < 50; ++i) CHECK(filter.push(i, 1).size() == 1);
