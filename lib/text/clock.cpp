@@ -79,21 +79,24 @@ std::string with_colons(std::string_view digits) {
 std::optional<Clock::Moment> Clock::read(std::string_view text) {
   Moment moment;
   const auto date = take_date(text);
-  moment.form.has_date = date.has_value();
   moment.midnight = date.value_or(0) * seconds_of_day;
   if (const auto blank = text.rfind(' '); blank != std::string_view::npos) {
-    moment.form.day = text.substr(0, blank);
+    moment.form = text.substr(0, blank + 1);
     text.remove_prefix(blank + 1);
   }
+  if (date) moment.form += 'T';
+  std::size_t parts = 0;
   do {
-    const bool first = moment.form.parts == 0;
+    const bool first = parts == 0;
     const auto part = take_digits(text, 1, first ? 6 : 2);
     if (!part || (!first && *part >= 60)) return {};
     moment.seconds = 60 * moment.seconds + *part;
-    ++moment.form.parts;
+    ++parts;
   } while (take(text, ":"));
-  const bool has_hours = moment.form.parts == 3;
-  if (!has_hours && (moment.form.parts != 2 || date)) return {};
+  const bool has_hours = parts == 3;
+  if (!has_hours && (parts != 2 || date)) return {};
+  moment.form.append(parts, ':');
+  moment.begins_anew = has_hours && !date;
   if (take(text, ".,")) {
     moment.fraction = text.substr(0, text.find_first_not_of(decimal_digits));
     text.remove_prefix(moment.fraction.size());
@@ -102,20 +105,20 @@ std::optional<Clock::Moment> Clock::read(std::string_view text) {
   if (text.empty()) return moment;
   const auto offset = read_offset(text);
   if (!offset || !has_hours) return {};
-  moment.form.has_offset = true;
+  moment.form += 'Z';
   moment.midnight -= *offset;
   return moment;
 }
 
 std::optional<double> Clock::seconds(std::string_view text) {
   const auto moment = read(text);
-  if (!moment || (form_ && *form_ != moment->form)) return {};
-  if (!form_) {
+  if (!moment || (!form_.empty() && form_ != moment->form)) return {};
+  if (form_.empty()) {
     form_ = moment->form;
     midnight_ = moment->midnight;
   }
   std::int64_t time = moment->midnight - midnight_ + moment->seconds;
-  if (!form_->has_date && form_->parts == 3 && time < last_ - seconds_of_day / 2) {
+  if (moment->begins_anew && time < last_ - seconds_of_day / 2) {
     midnight_ -= seconds_of_day;
     time += seconds_of_day;
   }

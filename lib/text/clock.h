@@ -27,23 +27,18 @@ class Clock {
   std::optional<double> seconds(std::string_view text);
 
  private:
-  /// What the times of a run have in common.
-  struct Form {
-    std::string day = {};   // as words; empty for a date of ISO 8601
-    std::size_t parts = 0;  // of the clock, between colons
-    bool has_date = false;  // of ISO 8601
-    bool has_offset = false;
-    bool operator==(const Form&) const = default;
-  };
   struct Moment {
-    Form form = {};
+    // What the times of a run have in common: the words of a day, T for a date of ISO 8601, a colon
+    // for each part of the clock, Z for an offset.
+    std::string form = {};
+    bool begins_anew = false;        // at midnight, without a date
     std::int64_t midnight = 0;       // before it, of its time zone; seconds since an epoch
     std::int64_t seconds = 0;        // whole ones since then
     std::string_view fraction = {};  // the digits of a part of a second
   };
   static std::optional<Moment> read(std::string_view text);
 
-  std::optional<Form> form_;   // none before the first time
+  std::string form_;           // empty before the first time
   std::int64_t midnight_ = 0;  // before it
   std::int64_t last_ = 0;      // whole seconds since then
 };

@@ -96,15 +96,14 @@ std::string outside_quotes(std::string_view text, std::string_view between, bool
   return outside;
 }
 
+std::string quoted(std::string_view text) {
+  return fmt::format("\"{}\"", replace_all(text, {{"\"", "\"\""}}));
+}
+
 void append_field(Bytes& line, std::string_view field) {
   const auto is_special = [](char c) { return c == quote || c == '\t' || c == '\n'; };
-  if (!field.starts_with('#') && std::ranges::none_of(field, is_special)) return line.append(field);
-  line.push_back(quote);
-  for (const char c : field) {
-    if (c == quote) line.push_back(quote);
-    line.push_back(c);
-  }
-  line.push_back(quote);
+  if (field.starts_with('#') || std::ranges::any_of(field, is_special)) line.append(quoted(field));
+  else line.append(field);
 }
 
 bool Dialect::choose(std::string_view line, bool tabs) {

@@ -38,6 +38,9 @@ std::optional<std::string> take_quoted(std::string_view& line, char separator);
 /// text begins within a quoted field; afterwards, whether it ends within one.
 std::string outside_quotes(std::string_view text, std::string_view separators, bool& within);
 
+/// The text in quotes, with two quotes for each one in it.
+std::string quoted(std::string_view text);
+
 /// Appends a field to a tab-separated line, in quotes if it contains a tab, a line end or a quote,
 /// or begins with #.
 void append_field(Bytes& line, std::string_view field);

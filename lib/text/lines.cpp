@@ -56,6 +56,13 @@ std::string_view only_cell(std::string_view line) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+/// Takes the first line from the text.
+std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line.substr(0, line.size() - line.ends_with('\r'));
+}
+
 constexpr std::string_view ended_with_an_error = ": ended with an error";
 
 }  // namespace
@@ -148,18 +155,13 @@ bool Lines::is_blank_row(std::string_view line) const {
 }
 
 bool Lines::is_title() const {
-  constexpr std::string_view dividers = "\t;,";
-  double number = 0;
-  if (text_.find_first_of(dividers) < text_.size() ||
-      parse_number(text_.substr(0, text_.find(' ')), number))
-    return false;
+  const auto is_divided = [](std::string_view line) {
+    return line.find_first_of(separators) != std::string_view::npos;
+  };
+  if (is_divided(text_) || is_number(text_.substr(0, text_.find(' ')))) return false;
   std::string_view ahead = this->ahead();
   int divided = 0;
-  for (int i = 0; i < 6 && !ahead.empty(); ++i) {
-    const auto end = std::min(ahead.find('\n'), ahead.size());
-    divided += ahead.substr(0, end).find_first_of(dividers) < end;
-    ahead.remove_prefix(std::min(end + 1, ahead.size()));
-  }
+  for (int i = 0; i < 6; ++i) divided += is_divided(take_line(ahead));
   return divided >= 3;
 }
 
@@ -167,13 +169,9 @@ bool Lines::another_run() const {
   if (!has_size_) return false;
   std::string_view ahead = this->ahead();
   for (bool blank = false; !ahead.empty();) {
-    const auto end = std::min(ahead.find('\n'), ahead.size());
-    std::string_view line = ahead.substr(0, end);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    const LineKind kind = kind_of(line);
+    const LineKind kind = kind_of(take_line(ahead));
     if (blank && kind == LineKind::row) return true;
     blank |= kind == LineKind::blank;
-    ahead.remove_prefix(std::min(end + 1, ahead.size()));
   }
   return false;
 }

@@ -262,10 +262,7 @@ Conversion NeededColumns::conversion(Needed& needed) {
       known && meant.unit.empty() && (!named_ || meant.name != quantity || said != said_.end()))
     assume(needed.column, quantity,
            fmt::format(", taken in {}{}", known->si,
-                       said == said_.end()
-                           ? ""
-                           : fmt::format(" although line {} says {}", said->second.line,
-                                         shown(said->second.unit))));
+                       said == said_.end() ? "" : " although " + said->second));
   if (known && quantity == "t" && is_clock_unit(meant.unit)) needed.clock = lower(meant.unit);
   if (!needed.clock.empty()) return {};
   const std::string_view si = known ? known->si : needed.unit;

@@ -16,8 +16,7 @@ std::string names_line(const std::vector<Column>& columns) {
   std::string line;
   for (const Column& column : columns) {
     std::string name = to_text(column);
-    if (name.starts_with(quote) || name.starts_with('#'))
-      name = fmt::format("\"{}\"", replace_all(name, {{"\"", "\"\""}}));
+    if (name.starts_with(quote) || name.starts_with('#')) name = quoted(name);
     (line += line.empty() ? "# " : "\t") += name;
   }
   return line;

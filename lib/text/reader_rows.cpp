@@ -35,7 +35,7 @@ bool Reader::next_line() {
     if (kind == LineKind::row) return true;
     if (kind == LineKind::comment) {
       const std::string_view comment = lines_->text().substr(lines_->text().find('#'));
-      if (state_ == State::in_run && are_names(comment))
+      if (are_names(comment))
         fail<InputError>(
             "{}: names among the rows; if another run begins here, put a blank line before it",
             here());

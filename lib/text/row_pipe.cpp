@@ -58,17 +58,17 @@ bool RowPipe::next() {
 
 /// Joins the rows of the time of the present one with it.
 void RowPipe::join_rows() {
-  joined_ = {in_.time(), in_[replaced_]};
-  double sum = joined_->value;
+  joined_time_ = in_.time();
+  joined_value_ = in_[replaced_];
+  double sum = joined_value_;
   for (std::size_t count = 1; next_row(); ++count) {
-    ahead_ = in_.time() != joined_->time;
+    ahead_ = in_.time() != joined_time_;
     if (ahead_) return;
     texts_.resize(texts_.size() - lines_.back().size);
     lines_.pop_back();
     --read_;
     sum += in_[replaced_];
-    if (in_.equal_times() == EqualTimes::mean)
-      joined_->value = sum / static_cast<double>(count + 1);
+    if (in_.equal_times() == EqualTimes::mean) joined_value_ = sum / static_cast<double>(count + 1);
   }
 }
 

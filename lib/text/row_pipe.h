@@ -50,8 +50,8 @@ class RowPipe {
   /// Of rows of one time that are joined: the number of the first, or the mean of the column that
   /// is replaced.
   double operator[](std::size_t slot) const {
-    if (!joined_) return in_[slot];
-    return slot == replaced_ ? joined_->value : joined_->time;
+    if (!joined_time_) return in_[slot];
+    return slot == replaced_ ? joined_value_ : *joined_time_;
   }
   /// The row with the index i in this run (from 0) begins a run of its own in the output, of this
   /// name. The rows before it have been dropped or wait for numbers; it has not been written.
@@ -77,12 +77,6 @@ class RowPipe {
     std::uint32_t size;   // of its text
     std::uint32_t place;  // in it, of the numbers of a row
     Kind kind;
-  };
-
-  /// Rows of one time that have become one.
-  struct Joined {
-    double time;
-    double value;  // of the column that is replaced
   };
 
   bool next_row();
@@ -116,8 +110,9 @@ class RowPipe {
   std::string names_;
   std::vector<std::string> history_of_run_;  // what its parts share
   std::string names_of_run_;
-  std::optional<Joined> joined_;
-  bool ahead_ = false;  // the row behind the joined ones has been read
+  std::optional<double> joined_time_;  // of rows that have become one
+  double joined_value_ = 0;            // of the column that is replaced
+  bool ahead_ = false;                 // the row behind the joined ones has been read
   bool any_row_ = false;
   std::function<std::string()> why_none_;
 };

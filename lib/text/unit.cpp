@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/unit.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -56,16 +58,15 @@ constexpr KnownQuantity quantities[] = {
 };
 
 std::optional<Unit> spelled(std::string_view word) {
-  for (const NamedUnit& unit : units) {
-    const auto has = [&](std::string_view text) {
-      return !text.empty() && std::ranges::count(unit.spellings, text) > 0;
-    };
-    if (has(word)) return Unit{unit.quantity, unit.to_si};
-    for (const Prefix& prefix : prefixes)
-      for (const std::string_view front : {prefix.word, prefix.letter})
-        if (unit.prefixed && word.starts_with(front) && has(word.substr(front.size())))
+  for (const NamedUnit& unit : units)
+    for (const std::string_view spelling : unit.spellings) {
+      if (spelling.empty() || !word.ends_with(spelling)) continue;
+      const std::string_view front = word.substr(0, word.size() - spelling.size());
+      if (front.empty()) return Unit{unit.quantity, unit.to_si};
+      for (const Prefix& prefix : prefixes)
+        if (unit.prefixed && (front == prefix.word || front == prefix.letter))
           return Unit{unit.quantity, prefix.size};
-  }
+    }
   return {};
 }
 
@@ -195,7 +196,7 @@ void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
     if (of_value || (std::ranges::count(ambiguous, words[i]) > 0 && !in_bracket)) continue;
     const auto found = read_unit(words[i]);
     if (!found || !found->to_si.changes()) continue;
-    said[std::string(found->quantity)] = {words[i], line};
+    said[std::string(found->quantity)] = fmt::format("line {} says {}", line, shown(words[i]));
     if (found->quantity == "x") said["D"] = said["x"];
   }
 }

@@ -65,13 +65,9 @@ bool is_unit(std::string_view text);
 /// free_name() makes.
 std::string unit_at_end(std::string_view quantity, std::string_view name);
 
-/// By quantity, the unit other than SI that a comment names last, and its place. A message says
-/// that a column without a unit is read in SI units all the same.
-struct SaidUnit {
-  std::string unit;
-  std::size_t line;  ///< the number of the line that says it
-};
-using SaidUnits = std::map<std::string, SaidUnit>;
+/// By quantity, the unit other than SI that a comment names last, as `line 3 says ms`. A message
+/// says that a column without a unit is read in SI units all the same.
+using SaidUnits = std::map<std::string, std::string>;
 
 /// Adds those of a comment. The word beside a number is part of a value; what is a word of English
 /// too (in, min, us) counts only at the beginning of a bracket.

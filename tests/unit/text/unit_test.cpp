@@ -142,7 +142,8 @@ TEST_CASE("unit: other than SI in comments, the last one counts", "[text]") {
                               "# speed in kilometers per hour", "# v in m/s, t in s, in a min"})
     note_units(comment, ++line, said);
   std::string all;
-  for (const auto& [quantity, unit] : said)
-    all += fmt::format("{} {} {}, ", quantity, unit.unit, unit.line);
-  CHECK(all == "D mm 3, t ms 2, v kilometers/hour 7, x mm 3, ");
+  for (const auto& [quantity, unit] : said) all += fmt::format("{}: {}, ", quantity, unit);
+  CHECK(
+      all ==
+      "D: line 3 says mm, t: line 2 says ms, v: line 7 says kilometers/hour, x: line 3 says mm, ");
 }
