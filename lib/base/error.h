@@ -37,15 +37,10 @@ struct Error : std::runtime_error {
   ErrorKind kind;
 };
 
-[[noreturn]] inline void throw_formatted(ErrorKind kind, fmt::string_view text,
-                                         fmt::format_args args) {
-  throw Error(kind, fmt::vformat(text, args));
-}
-
 /// Throws an error of this kind, with a formatted message.
 template <ErrorKind kind = PlainError, typename... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> text, const Args&... args) {
-  throw_formatted(kind, text, fmt::make_format_args(args...));
+  throw Error(kind, fmt::vformat(text, fmt::make_format_args(args...)));
 }
 
 /// What `work` returns. An Error that names no file becomes an InputError at this place, a text

@@ -180,14 +180,11 @@ class HeadReader {
     above_.push_back({std::move(line), lines_.number()});
   }
 
-  bool begins_rows(const std::string& line) {
-    return dialect_.choose(line, tabs_.contains(std::ranges::count(line, '\t')));
-  }
-
   /// Goes to the first row; false if there is none.
   bool find_row() {
     while (lines_.next()) {
       const std::string line(lines_.text());
+      const bool tabs = tabs_.contains(std::ranges::count(line, '\t'));
       switch (lines_.kind()) {
         case LineKind::blank:
           break;
@@ -201,7 +198,8 @@ class HeadReader {
           keep(line.substr(line.find('#')));
           break;
         case LineKind::row:
-          if (before_ ? dialect_.holds_number(line) : !lines_.is_title() && begins_rows(line))
+          if (before_ ? dialect_.holds_number(line)
+                      : !lines_.is_title() && dialect_.choose(line, tabs))
             return true;
           if (before_) refuse_other_separator(line);
           keep(line);

@@ -95,24 +95,22 @@ void RowPipe::split(std::size_t i, const std::string& name) {
 
 /// Writes the head of a run before its first row.
 void RowPipe::write_head() {
-  if (names_.empty()) return;
+  if (!std::exchange(head_waits_, false)) return;
   if (any_row_) out_.end_line();
   write_comments();
   if (!history_.empty()) out_.line(history_);
-  out_.header(std::exchange(names_, {}));
+  out_.header(names_);
 }
 
 /// Prepares the head of a part of a run: the history of the run, the name of the part.
 void RowPipe::begin_part() {
   if (splits_.empty() || splits_.front().first > done_) return;
-  if (!names_.empty()) {
-    names_of_run_ = names_;
+  if (std::exchange(head_waits_, true)) {
     history_of_run_.clear();
     for (const std::string& comment : comments_)
       if (is_history(comment) && !comment.starts_with("## run "))
         history_of_run_.push_back(comment);
   }
-  names_ = names_of_run_;
   std::erase_if(comments_, is_history);
   comments_.push_back(splits_.front().second);
   comments_.insert(comments_.end(), history_of_run_.begin(), history_of_run_.end());
@@ -133,9 +131,10 @@ void RowPipe::write_rows() {
     if (line.kind == Kind::names) {
       std::erase_if(comments_, is_history);
       names_ = text;
+      head_waits_ = true;
     } else if (line.kind == Kind::comment) {
       comments_.emplace_back(text);
-      if (names_.empty()) write_comments();
+      if (!head_waits_) write_comments();
     } else if (!dropped_.empty() && dropped_.front() == done_) {
       dropped_.pop();
       ++done_;

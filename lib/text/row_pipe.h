@@ -105,14 +105,14 @@ class RowPipe {
   std::size_t read_ = 0;
   std::size_t run_begins_ = 0;  // read before this run
   std::size_t done_ = 0;        // written or left out
-  // The head of a run none of whose rows has been written.
-  std::vector<std::string> comments_;
+  // The head of a run.
+  std::vector<std::string> comments_;  // that are not written yet
   std::string names_;
+  bool head_waits_ = false;                  // none of its rows has been written
   std::vector<std::string> history_of_run_;  // what its parts share
-  std::string names_of_run_;
-  std::optional<double> joined_time_;  // of rows that have become one
-  double joined_value_ = 0;            // of the column that is replaced
-  bool ahead_ = false;                 // the row behind the joined ones has been read
+  std::optional<double> joined_time_;        // of rows that have become one
+  double joined_value_ = 0;                  // of the column that is replaced
+  bool ahead_ = false;                       // the row behind the joined ones has been read
   bool any_row_ = false;
   std::function<std::string()> why_none_;
 };
