@@ -82,10 +82,8 @@ std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file
   if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(file));
   for (LawOfFile& row : all) {
     row.contact = given;
-    if (row.fitted_with) {
-      const std::string others = take_contact(tool, *row.fitted_with, row.contact);
-      if (!others.empty()) tool.warn(row.run, "the law was fitted with " + others);
-    }
+    if (row.fitted_with)
+      take_contact(tool, row.run, "the law was fitted with {}", *row.fitted_with, row.contact);
     // The slope and the wind of a row are fitted: they take precedence over those of a scene.
     Body& body = row.contact.body;
     if (!std::isnan(row.slope) && !tool.on_command_line("slope")) body.slope = row.slope;
@@ -319,7 +317,8 @@ const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& r
       shown(run), shown(runs));
 }
 
-std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) {
+void take_contact(Tool& tool, const std::string& run, const char* warning, const ShiftOf& of,
+                  ShiftOf& contact) {
   Body given = contact.body;
   for (const NumberOfBody& number : uncertain_numbers) {
     if (tool.given(number.value)) continue;
@@ -332,7 +331,7 @@ std::string take_contact(const Tool& tool, const ShiftOf& of, ShiftOf& contact) 
   if (!gives_wind && !std::isnan(of.body.wind)) contact.body.wind = of.body.wind;
   std::string others = other_body(of, given);
   take_geometry(tool, of.geometry, contact.geometry, others);
-  return others;
+  if (!others.empty()) tool.warn(run, fmt::format(fmt::runtime(warning), others));
 }
 
 void take_geometry(const Tool& tool, Geometry other, Geometry& geometry, std::string& others) {

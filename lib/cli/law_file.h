@@ -101,9 +101,11 @@ std::vector<LawOfFile> rows_of_fit(Reader&, const LawForm&, bool with_errors,
 std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const ShiftOf& given,
                                  bool with_errors = false);
 
-/// Completes what the options give of a body and its geometry by those with which a law was fitted.
-/// Returns "K 0.5 (here 0.83)": the numbers that the options give otherwise.
-std::string take_contact(const Tool&, const ShiftOf& of_law, ShiftOf& contact);
+/// Completes what the options give of a body and its geometry by those with which a law was fitted
+/// to a run. Warns of the numbers that the options give otherwise: "K 0.5 (here 0.83)" stands for
+/// {} in the text of the warning.
+void take_contact(Tool&, const std::string& run, const char* warning, const ShiftOf& of_law,
+                  ShiftOf& contact);
 
 /// Takes a geometry unless the options give one; adds it to `others` where that is another one.
 void take_geometry(const Tool&, Geometry other, Geometry& geometry, std::string& others);

@@ -272,14 +272,12 @@ void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs, Geometry geom
   for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
     if (tool.on_command_line(option)) add_item(unused, std::string("--") + option);
   for (const Run& run : runs) {
-    std::string others;
-    if (run.shift_of) {
-      ShiftOf given{run.body, geometry};
-      others = take_contact(tool, *run.shift_of, given);
-    } else if (!unused.empty())
+    ShiftOf given{run.body, geometry};
+    if (run.shift_of)
+      take_contact(tool, run.name, "D was computed with {}: the fit uses the numbers of D",
+                   *run.shift_of, given);
+    else if (!unused.empty())
       tool.warn(run.name, "not used: " + unused + ": no `##` line says how D was computed");
-    if (!others.empty())
-      tool.warn(run.name, "D was computed with " + others + ": the fit uses the numbers of D");
   }
 }
 
@@ -312,8 +310,7 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
     tool.know_run(run.name);
     if (run.shift_of) {
       ShiftOf contact{run.body, run.shift_of->geometry};
-      const std::string others = take_contact(tool, *run.shift_of, contact);
-      if (!others.empty()) tool.warn(run.name, "the row was fitted with " + others);
+      take_contact(tool, run.name, "the row was fitted with {}", *run.shift_of, contact);
       run.body = contact.body;
       run.shift_of = contact;
     }
