@@ -74,7 +74,7 @@ constexpr std::string_view of_momenta[] = {"p_tr", "L_trH", "L_trN"};
 struct Task {
   std::vector<Computed<double (*)(const Moment&)>> row;  ///< what is appended, without --summary
   double temperature = not_given;
-  ShiftOf given{};              ///< the body and the geometry of the options, without the mass
+  Body given{};                 ///< the body of the options, without the mass
   std::vector<Body> masses;     ///< one, or one for each run
   std::string list;             ///< the option that has one for each
   std::vector<LawOfFile> laws;  ///< with their bodies; without a law that of the options
@@ -93,19 +93,18 @@ struct Task {
   }
   /// A mat is inclined.
   bool inclined() const {
-    return std::ranges::any_of(laws, [](const LawOfFile& law) {
-      return law.contact.body.slope != 0 || law.contact.body.road;
-    });
+    return std::ranges::any_of(
+        laws, [](const LawOfFile& law) { return law.body.slope != 0 || law.body.road; });
   }
 };
 
 /// The laws that the options tell, each in the wind of its run.
-std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const ShiftOf& given,
+std::vector<LawOfFile> laws_in_wind(Tool& tool, const LawOptions& options, const Body& given,
                                     bool with_errors) {
   std::vector<LawOfFile> laws = read_laws(tool, options, given, with_errors);
   for (LawOfFile& law : laws) {
-    check_wind(law.contact.body, law.law);
-    law.law = law.law.in_wind(law.contact.body.wind);
+    check_wind(law.body, law.law);
+    law.law = law.law.in_wind(law.body.wind);
   }
   return laws;
 }
@@ -135,14 +134,14 @@ void check(Tool& tool, const std::string& run, const Balance& balance, double to
     tool.object(run, fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
 }
 
-/// The body and the geometry of a run whose D is a column: its `##` lines have the geometry. Where
-/// they have other numbers than are given, a line says so.
-ShiftOf contact_of_shifts(Tool& tool, const Reader& in, ShiftOf contact) {
-  std::string others = other_body(history_of(in.history(), {}).shift_of, contact.body);
-  if (const auto geometry = geometry_of_shifts(in.history()))
-    take_geometry(tool, *geometry, contact.geometry, others);
+/// The body of a run whose D is a column: its `##` lines have the geometry. Where they have other
+/// numbers than are given, a line says so.
+Body body_of_shifts(Tool& tool, const Reader& in, Body body) {
+  std::string others = other_body(history_of(in.history(), {}).shift_of, body);
+  if (const auto exact = shifts_are_exact(in.history()))
+    take_geometry(tool, *exact, body.exact, others);
   if (!others.empty()) tool.warn(in.run_name(), "D was computed with " + others);
-  return contact;
+  return body;
 }
 
 /// The header of --summary.
@@ -185,19 +184,19 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
           "or give the runs one by one",
           run);
     const LawOfFile& law = law_of(task.laws, run);
-    auto [body, geometry] = task.uses_law ? law.contact : contact_of_shifts(tool, in, law.contact);
+    Body body = task.uses_law ? law.body : body_of_shifts(tool, in, law.body);
     body.m = mass_of_run(task, in, runs++);
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
     if (pipe)
       pipe->set_history("energy-ledger " + (task.uses_law ? words_of(law.law) : "D") +
-                        words_of(law.contact.body, task.height));
+                        words_of(law.body, task.height));
     Balance balance(body, task.momenta);
     double first_height = 0;
     while (pipe ? pipe->next() : in.next()) {
       const double v = in[task.v];
       if (task.uses_law) law.law.check_speed(v);
       const double D = task.uses_law ? law.law(v) : in[task.D];
-      const Ledger now(body, geometry, v, D, incline(body, in[task.x], v));
+      const Ledger now(body, v, D, incline(body, in[task.x], v));
       if (body.road) {
         const double height = body.road->at(in[task.x]).h;
         if (balance.energy.empty()) first_height = height;
@@ -243,7 +242,7 @@ void choose_columns(Tool& tool, Task& task, const std::string& columns) {
 
 /// The law, its body and the road of the options and the scene, and the columns that are read.
 Reader& read_task(Tool& tool, Task& task, const LawOptions& law) {
-  Body& body = task.given.body;
+  Body& body = task.given;
   // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
   for (const NumberOfBody& number : uncertain_numbers) body.*number.sigma = 0;
   if (!task.height.empty())
@@ -265,7 +264,7 @@ Reader& read_task(Tool& tool, Task& task, const LawOptions& law) {
     tool.refuse({"wind"}, "goes with a law");
     tool.need({"radius", "shape-factor"});
     if (!in.find("D")) fail("neither a law (--law, or -a and -b) nor a column D (--use D=COLUMN)");
-    task.laws = {{.contact = task.given}};
+    task.laws = {{.body = task.given}};
   }
   task.t = in.need("t");
   task.v = in.need("v");
@@ -282,10 +281,10 @@ int main(int argc, char** argv) {
   LawOptions law;
   std::string columns = "E_trans,E_rot,I_E1,I_E2,P_T1,P_R1,P_R2,P_T2,P_diss,E_diss";
   tool.bodies(task.masses, task.list, {&Body::m});
-  tool.body(task.given.body, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
+  tool.body(task.given, {&Body::R, &Body::K, &Body::g, &Body::slope, &Body::wind});
   add_height(tool, task.height);
   add_options(tool, law);
-  tool.geometry(task.given.geometry);
+  tool.geometry(task.given.exact);
   tool.text("--columns", columns, "NAME,...",
             "append these quantities of the paper (energies and flows of energy)");
   tool.number("--temperature", task.temperature, positive, "temperature of the mat [K], for Pi_S");

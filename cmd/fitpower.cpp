@@ -58,7 +58,7 @@ void add_options(Tool& tool, FitOptions& options, Bodies& bodies,
   });
   tool.choice("--steepness", options.fit_steepness, {{"fit", true}},
               "find a factor of the height, one for all runs");
-  tool.geometry(options.geometry);
+  tool.geometry(bodies.exact);
   tool.number("--min-speed", options.min_speed, not_negative, "leave out slower rows [m/s]");
   tool.flag("--robust", options.robust,
             "let outliers count little: bisquare loss instead of squares");
@@ -158,11 +158,10 @@ void say_begins(Tool& tool, const std::vector<FitOfRuns>& fits) {
 
 /// The line that says of what the rows were made.
 std::string line_above(const std::vector<FitOfRuns>& fits, const FitOptions& options) {
-  std::vector<std::optional<ShiftOf>> of_runs;
+  std::vector<std::optional<Body>> of_runs;
   for (const FitOfRuns& fit : fits)
     for (const Run& run : fit.runs)
-      of_runs.push_back(is_trajectory(fit.route) ? contact_of(fit.route, run, options)
-                                                 : run.shift_of);
+      of_runs.push_back(is_trajectory(fit.route) ? run.body : run.shift_of);
   return line_of_fit(name_of(fits.front().route), options, of_runs);
 }
 
@@ -264,7 +263,7 @@ int fit_input(Tool& tool, Task& task) {
   if (!task.each) warn_of_copies(tool, route, runs);
   if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
   task.bodies.give_to(runs);
-  if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs, options.geometry);
+  if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs);
   auto fits = fit_all(tool, route, std::move(runs), options, task.each);
   const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
   const auto first = std::ranges::find_if(fits, fitted);

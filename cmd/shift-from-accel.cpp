@@ -12,10 +12,9 @@ int main(int argc, char** argv) {
   using namespace rolling;
   Tool tool("shift-from-accel",
             "Append the forward shift D of the contact force, from the acceleration.");
-  ShiftOf by{};
-  const Body& body = by.body;
-  tool.body(by.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
-  tool.geometry(by.geometry);
+  Body body{};
+  tool.body(body, {&Body::R, &Body::K, &Body::g, &Body::slope});
+  tool.geometry(body.exact);
   tool.scene();
   tool.input();
   tool.output();
@@ -24,13 +23,13 @@ int main(int argc, char** argv) {
     tool.need({"radius", "shape-factor"});
     Reader& in = tool.read({"t", "v", "a"});
     const auto a = in.need("a");
-    RowPipe pipe(in, tool.out, line_of(by));
+    RowPipe pipe(in, tool.out, line_of(body));
     pipe.append({"D", "m"});
     std::size_t rows = 0;
     std::size_t beyond = 0;
     while (pipe.next_run())
       while (pipe.next()) {
-        const double D = shift_from_acceleration(body, by.geometry, pipe[a]);
+        const double D = shift_from_acceleration(body, pipe[a]);
         ++rows;
         beyond += std::abs(D) > body.R;
         pipe.put(D);

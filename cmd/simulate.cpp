@@ -109,13 +109,12 @@ struct Task {
     const double given_v0 = roll.v0;
     // A roll uses no uncertainties of its body: a law of the same values is of this body.
     for (const NumberOfBody& number : uncertain_numbers) roll.body.*number.sigma = 0;
-    const auto laws = read_laws(tool, law, {roll.body, roll.geometry}, foretells);
+    const auto laws = read_laws(tool, law, roll.body, foretells);
     if (laws.size() > 1 && run.empty())
       fail("{}: {} rows: choose one by --run NAME", shown(law.file), laws.size());
     law_of_file = run.empty() ? laws.front() : law_of(laws, run);
     roll.law = law_of_file.law;
-    roll.body = law_of_file.contact.body;
-    roll.geometry = law_of_file.contact.geometry;
+    roll.body = law_of_file.body;
     if (!height.empty()) tool.refuse({"slope"}, "does not go with --height, which has the slope");
     road = read_road(tool, height);
     roll.body.road = road.get();
@@ -233,7 +232,7 @@ void add_options(Tool& tool, Task& task) {
   add_height(tool, task.height);
   add_options(tool, task.law);
   tool.text("--run", task.run, "NAME", "use the row of --law with this name in its column run");
-  tool.geometry(roll.geometry);
+  tool.geometry(roll.body.exact);
   tool.number("--v0", roll.v0, any_number, "velocity at t0 [m/s], negative towards falling x");
   tool.number("--x0", roll.x0, any_number, "position at t0 [m] (0)");
   tool.number("--t0", task.t0, any_number, "time at which the roll begins [s] (0)");
@@ -267,7 +266,7 @@ void write_head(Output& out, const Task& task) {
   out.line(fmt::format("## simulate {} K {} R {} g {} v0 {}{}{}{}", words_of(task.roll.law), body.K,
                        body.R, body.g, task.way * task.roll.v0, words_of(body, task.height),
                        task.t0 == 0 ? "" : fmt::format(" t0 {}", task.t0),
-                       task.roll.geometry == Geometry::exact ? " exact" : ""));
+                       task.roll.body.exact ? " exact" : ""));
   std::vector<Column> names;
   for (const auto& quantity : task.row) names.push_back(quantity.column());
   out.names(names);

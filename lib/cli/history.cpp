@@ -127,15 +127,14 @@ std::string names_of(const std::set<Quantity>& quantities) {
   return names;
 }
 
-/// The contact of each of so many rows in the words `K 0.5 R 0.04,0.05 g 9.81 [slope S] [wind W]
+/// The body of each of so many rows in the words `K 0.5 R 0.04,0.05 g 9.81 [slope S] [wind W]
 /// [exact]`. Empty if they are of more runs than rows, nothing for other words.
-std::optional<std::vector<ShiftOf>> read_contacts(std::span<const std::string> words,
-                                                  std::size_t rows) {
-  std::vector<ShiftOf> contacts(rows, {{NAN, NAN, NAN, NAN}});
+std::optional<std::vector<Body>> read_bodies(std::span<const std::string> words, std::size_t rows) {
+  std::vector<Body> bodies(rows, {NAN, NAN, NAN, NAN});
   auto number = numbers_of_body.begin();
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "exact") {
-      for (ShiftOf& contact : contacts) contact.geometry = Geometry::exact;
+      for (Body& body : bodies) body.exact = true;
       continue;
     }
     number = std::ranges::find(number, numbers_of_body.end(), words[i], &NumberOfBody::name);
@@ -143,18 +142,18 @@ std::optional<std::vector<ShiftOf>> read_contacts(std::span<const std::string> w
     const bool may_be_fit =
         std::ranges::count(scene_numbers, number->value, &SceneNumber::value) > 0;
     const std::vector<std::string> texts = split_names(words[i], ',');
-    if (texts.size() != 1 && texts.size() != rows) return std::vector<ShiftOf>{};
+    if (texts.size() != 1 && texts.size() != rows) return std::vector<Body>{};
     for (std::size_t row = 0; row < rows; ++row) {
       const std::string& text = texts[texts.size() == 1 ? 0 : row];
       Estimate read{NAN};
       if (!parse_estimate(text, read) && !(text == "fit" && may_be_fit)) return {};
-      contacts[row].body.*number->value = read.value;
-      if (number->sigma) contacts[row].body.*number->sigma = read.sigma;
+      bodies[row].*number->value = read.value;
+      if (number->sigma) bodies[row].*number->sigma = read.sigma;
     }
   }
-  for (const auto& [body, geometry] : contacts)
+  for (const Body& body : bodies)
     if (!(body.K >= 0 && body.R > 0 && body.g > 0)) return {};
-  return contacts;
+  return bodies;
 }
 
 }  // namespace
@@ -168,27 +167,27 @@ Column derivative_of(const Column& column) {
   return {"d" + column.name, column.unit.empty() ? "" : column.unit + "/s"};
 }
 
-std::string line_of(const ShiftOf& of) {
+std::string line_of(const Body& body) {
   std::string line = "shift-from-accel";
-  if (of.geometry == Geometry::exact) line += " exact";
+  if (body.exact) line += " exact";
   for (const NumberOfBody& number : uncertain_numbers) {
-    const Estimate x = number.of(of.body);
+    const Estimate x = number.of(body);
     if (number.value != &Body::slope || x.value != 0 || x.sigma != 0)
       line += fmt::format(" {} {}", number.name, to_text(x));
   }
   return line;
 }
 
-std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows) {
+std::vector<Body> bodies_of_rows(const std::vector<std::string>& lines, std::size_t rows) {
   for (const std::string& line : lines) {
     const std::vector<std::string> words = split_names(line, '\0');
     if (words.front() != "fitpower") continue;
     const auto numbers = std::ranges::find(words, numbers_of_body[0].name);
     if (words.size() >= 3 && numbers == words.end()) return {};
-    const auto contacts = read_contacts({numbers, words.end()}, rows);
-    if (numbers - words.begin() > 4 || !contacts)
+    const auto bodies = read_bodies({numbers, words.end()}, rows);
+    if (numbers - words.begin() > 4 || !bodies)
       fail("`## {}` is not what fitpower writes", shown(line));
-    return *contacts;
+    return *bodies;
   }
   return {};
 }
@@ -201,7 +200,7 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
       const auto words = split_names(line, '\0');
       if (words.size() < 2) continue;
       if (words[0] == "shift-from-accel") {
-        const auto of = read_contacts(std::span(words).subspan(1), 1);
+        const auto of = read_bodies(std::span(words).subspan(1), 1);
         history.shift_of.reset();
         if (of && !of->empty()) history.shift_of = of->front();
       }
@@ -214,11 +213,11 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
   return history;
 }
 
-std::string other_body(const std::optional<ShiftOf>& shift_of, const Body& body) {
+std::string other_body(const std::optional<Body>& shift_of, const Body& body) {
   std::string others;
   if (!shift_of) return others;
   for (const NumberOfBody& number : uncertain_numbers) {
-    const Estimate then = number.of(shift_of->body);
+    const Estimate then = number.of(*shift_of);
     const Estimate now = number.of(body);
     if (std::isnan(now.value) || std::isnan(then.value) ||
         (then.value == now.value && (then.sigma == now.sigma || now.sigma == 0)))
@@ -232,17 +231,17 @@ bool change_numbers(const FilterChain& filters) {
   return std::ranges::any_of(filters, [](const LinearFilter& filter) { return filter.reach > 0; });
 }
 
-std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines) {
-  std::optional<Geometry> geometry;
+std::optional<bool> shifts_are_exact(const std::vector<std::string>& lines) {
+  std::optional<bool> exact;
   for (const std::string& line : lines) {
     const auto words = split_names(line, '\0');
     if (words.front() != "shift-from-accel" && words.front() != "simulate") continue;
-    bool exact = false;
+    exact = false;
     for (std::size_t i = 1; i < words.size(); ++i)
-      exact |= words[i] == "exact" && words[i - 1] != "height";  // a table may have that name
-    geometry = exact ? Geometry::exact : Geometry::approximate;
+      if (words[i] == "exact" && words[i - 1] != "height")
+        exact = true;  // a table may have that name
   }
-  return geometry;
+  return exact;
 }
 
 bool shifts_of_speeds(const std::vector<std::string>& lines) {

@@ -18,17 +18,17 @@ namespace rolling {
 Column derivative_of(const Column&);
 
 /// The line of shift-from-accel: the numbers from which D was computed, with their uncertainties.
-std::string line_of(const ShiftOf&);
+std::string line_of(const Body&);
 
 /// The bodies in the line of fitpower above so many rows; NaN for a slope and a wind that are in
 /// the rows. Empty if there is no such line, or if it has no numbers, or those of more runs than
 /// rows. Throws Error for a line that fitpower does not write.
-std::vector<ShiftOf> contacts_of_rows(const std::vector<std::string>& lines, std::size_t rows);
+std::vector<Body> bodies_of_rows(const std::vector<std::string>& lines, std::size_t rows);
 
 /// The content of the `##` lines of a run.
 struct History {
   FilterChain filters = {};  ///< empty if the filters are not known
-  std::optional<ShiftOf> shift_of = {};
+  std::optional<Body> shift_of = {};
   std::string doubt = {};    ///< the reason why the lines are not trusted; otherwise empty
   bool cut_begin = false;    ///< rows were removed at the begin after a filter
   bool cut_end = false;      ///< rows were removed at the end after a filter
@@ -44,11 +44,11 @@ History history_of(const std::vector<std::string>& lines, std::span<const double
 /// "K 0.6 (here 0.5)": the numbers that D was computed with, where those of the body are others, or
 /// have an uncertainty that D's do not have; empty if there are none. A number of the body that is
 /// NaN is not known.
-std::string other_body(const std::optional<ShiftOf>&, const Body&);
+std::string other_body(const std::optional<Body>& shift_of, const Body&);
 
-/// The geometry in which D was computed: by the last line of shift-from-accel or of simulate, if
-/// there is one.
-std::optional<Geometry> geometry_of_shifts(const std::vector<std::string>& lines);
+/// Whether D was computed in the exact geometry: by the last line of shift-from-accel or of
+/// simulate, if there is one.
+std::optional<bool> shifts_are_exact(const std::vector<std::string>& lines);
 
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);

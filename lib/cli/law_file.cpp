@@ -67,8 +67,8 @@ constexpr RollNumber roll_numbers[] = {{"slope", "", &LawOfFile::slope},
                                        {"t0", "s", &LawOfFile::t0}};
 
 /// The rows of fitpower in a file, with their bodies.
-std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file,
-                                 const ShiftOf& given, bool with_errors) {
+std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file, const Body& given,
+                                 bool with_errors) {
   const LawForm& form = law_of_columns(in, file);
   std::set<std::string> runs;
   auto all = rows_of_fit(in, form, with_errors, [&](const LawOfFile& row) {
@@ -81,11 +81,11 @@ std::vector<LawOfFile> read_rows(Tool& tool, Reader& in, const std::string& file
   });
   if (all.empty()) fail<InputError>("{}: no row of fitpower", shown(file));
   for (LawOfFile& row : all) {
-    row.contact = given;
+    row.body = given;
     if (row.fitted_with)
-      take_contact(tool, row.run, "the law was fitted with {}", *row.fitted_with, row.contact);
+      take_body(tool, row.run, "the law was fitted with {}", *row.fitted_with, row.body);
     // The slope and the wind of a row are fitted: they take precedence over those of a scene.
-    Body& body = row.contact.body;
+    Body& body = row.body;
     if (!std::isnan(row.slope) && !tool.on_command_line("slope")) body.slope = row.slope;
     if (!std::isnan(row.wind) && !tool.on_command_line("wind")) body.wind = row.wind;
     if (!std::isnan(row.steepness)) body.steepness = row.steepness;
@@ -164,24 +164,24 @@ std::string words_of(const Body& body, const std::string& height) {
 }
 
 std::string line_of_fit(const std::string& route, const FitOptions& options,
-                        const std::vector<std::optional<ShiftOf>>& of_runs) {
+                        const std::vector<std::optional<Body>>& of_runs) {
   const LawForm& law = *options.law;
   std::string line = fmt::format("fitpower {} {}", version(), route);
   if (!options.fits_power()) line += ' ' + replace_all(law.formula, {{" + ", "+"}, {" ", "*"}});
-  const auto known = [&](const std::optional<ShiftOf>& of) {
-    return of && of->geometry == of_runs.front()->geometry;
+  const auto known = [&](const std::optional<Body>& of) {
+    return of && of->exact == of_runs.front()->exact;
   };
   if (!std::ranges::all_of(of_runs, known)) return line;
   for (const NumberOfBody& number : numbers_of_body) {
     if (number.value == &Body::wind && law.drag < 0) continue;
     std::vector<std::string> texts;
-    for (const auto& of : of_runs) texts.push_back(to_text(number.of(of->body)));
+    for (const auto& of : of_runs) texts.push_back(to_text(number.of(*of)));
     if (std::ranges::count(texts, texts.front()) == std::ssize(texts)) texts.resize(1);
     for (const SceneNumber& fitted : scene_numbers)
       if (fitted.value == number.value && options.*fitted.is_fitted) texts = {"fit"};
     line += fmt::format(" {} {}", number.name, fmt::join(texts, ","));
   }
-  if (of_runs.front()->geometry == Geometry::exact) line += " exact";
+  if (of_runs.front()->exact) line += " exact";
   return line;
 }
 
@@ -256,19 +256,19 @@ std::vector<LawOfFile> rows_of_fit(Reader& in, const LawForm& form, bool with_er
       }
       of_row(row);
     }
-    const auto contacts = contacts_of_rows(in.history(), places.size() + in.left_out() - left_out);
-    for (std::size_t i = 0; i < places.size() && !contacts.empty(); ++i)
-      all[first + i].fitted_with = contacts[places[i]];
+    const auto bodies = bodies_of_rows(in.history(), places.size() + in.left_out() - left_out);
+    for (std::size_t i = 0; i < places.size() && !bodies.empty(); ++i)
+      all[first + i].fitted_with = bodies[places[i]];
   }
   return all;
 }
 
-std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const ShiftOf& given,
+std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Body& given,
                                  bool with_errors) {
   const std::string& file = options.file;
   if (file.empty()) {
     tool.need({"coefficient", "exponent", "radius", "shape-factor"});
-    return {{.law = options.power, .contact = given}};
+    return {{.law = options.power, .body = given}};
   }
   const bool replaced = tool.on_command_line("coefficient") || tool.on_command_line("exponent");
   if (with_errors)
@@ -282,7 +282,7 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
   std::vector<LawOfFile> laws;
   if (is_table) {
     const auto v = in.need("v");
-    laws.push_back({.law = read_table<TableLaw>(in, file, v, in.need("D")), .contact = given});
+    laws.push_back({.law = read_table<TableLaw>(in, file, v, in.need("D")), .body = given});
   } else laws = read_rows(tool, in, file, given, with_errors);
   const auto adds = [&](const LawOfFile& law) {
     return std::ranges::any_of(roll_numbers, [&](const RollNumber& number) {
@@ -297,7 +297,7 @@ std::vector<LawOfFile> read_laws(Tool& tool, const LawOptions& options, const Sh
   };
   for (LawOfFile& law : laws) {
     if (replaced) law.law = options.power;
-    if (!std::isnan(law.contact.body.K) && !std::isnan(law.contact.body.R)) continue;
+    if (!std::isnan(law.body.K) && !std::isnan(law.body.R)) continue;
     if (std::ranges::any_of(in.history(), of_several))
       fail<OptionError>("{}: the row has several K or R: give -K and -R", shown(file));
     tool.need({"radius", "shape-factor"});
@@ -317,27 +317,27 @@ const LawOfFile& law_of(const std::vector<LawOfFile>& laws, const std::string& r
       shown(run), shown(runs));
 }
 
-void take_contact(Tool& tool, const std::string& run, const char* warning, const ShiftOf& of,
-                  ShiftOf& contact) {
-  Body given = contact.body;
+void take_body(Tool& tool, const std::string& run, const char* warning, const Body& of,
+               Body& body) {
+  Body given = body;
   for (const NumberOfBody& number : uncertain_numbers) {
     if (tool.given(number.value)) continue;
     given.*number.value = not_given;
-    if (std::isnan(of.body.*number.value)) continue;
-    contact.body.*number.value = of.body.*number.value;
-    contact.body.*number.sigma = of.body.*number.sigma;
+    if (std::isnan(of.*number.value)) continue;
+    body.*number.value = of.*number.value;
+    body.*number.sigma = of.*number.sigma;
   }
   const bool gives_wind = tool.has("wind") && tool.given("wind");
-  if (!gives_wind && !std::isnan(of.body.wind)) contact.body.wind = of.body.wind;
+  if (!gives_wind && !std::isnan(of.wind)) body.wind = of.wind;
   std::string others = other_body(of, given);
-  take_geometry(tool, of.geometry, contact.geometry, others);
+  take_geometry(tool, of.exact, body.exact, others);
   if (!others.empty()) tool.warn(run, fmt::format(fmt::runtime(warning), others));
 }
 
-void take_geometry(const Tool& tool, Geometry other, Geometry& geometry, std::string& others) {
-  if (!tool.given("exact")) geometry = other;
-  else if (geometry != other)
-    add_item(others, other == Geometry::exact ? "--exact (here A = 1)" : "A = 1 (here --exact)");
+void take_geometry(const Tool& tool, bool other, bool& exact, std::string& others) {
+  if (!tool.given("exact")) exact = other;
+  else if (exact != other)
+    add_item(others, other ? "--exact (here A = 1)" : "A = 1 (here --exact)");
 }
 
 double LawOfFile::sigma(std::span<const double> by_c) const {

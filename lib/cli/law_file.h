@@ -40,7 +40,7 @@ std::string words_of(const Body&, const std::string& height);
 /// slope 0 [wind 0] [exact]`, with a list where the runs differ, and `slope fit` where the slope is
 /// in the rows. Without the numbers if those of a run are not known.
 std::string line_of_fit(const std::string& route, const FitOptions&,
-                        const std::vector<std::optional<ShiftOf>>& of_runs);
+                        const std::vector<std::optional<Body>>& of_runs);
 
 /// The options of a law, and their values.
 struct LawOptions {
@@ -62,9 +62,9 @@ std::unique_ptr<const Road> read_road(Tool&, const std::string& file);
 struct LawOfFile {
   Law law = {};
   /// Of the options; where these give no number, of the row of fitpower and its `##` line.
-  ShiftOf contact = {};
-  std::optional<ShiftOf> fitted_with = {};  ///< by the `##` line above the row, if it says so
-  std::string run = {};                     ///< the run that the row is of, if it has a column run
+  Body body = {};
+  std::optional<Body> fitted_with = {};  ///< by the `##` line above the row, if it says so
+  std::string run = {};                  ///< the run that the row is of, if it has a column run
   /// What the row has of its roll; else NaN.
   double slope = not_given;
   double wind = not_given;
@@ -98,17 +98,16 @@ std::vector<LawOfFile> rows_of_fit(Reader&, const LawForm&, bool with_errors,
 /// a line says so. Columns with units are converted to SI. `with_errors`: a row needs its
 /// uncertainties. Throws Error for any other file, for rows of several laws, for a body without K
 /// or R, and for rows that add nothing to the command line.
-std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const ShiftOf& given,
+std::vector<LawOfFile> read_laws(Tool&, const LawOptions&, const Body& given,
                                  bool with_errors = false);
 
-/// Completes what the options give of a body and its geometry by those with which a law was fitted
-/// to a run. Warns of the numbers that the options give otherwise: "K 0.5 (here 0.83)" stands for
-/// {} in the text of the warning.
-void take_contact(Tool&, const std::string& run, const char* warning, const ShiftOf& of_law,
-                  ShiftOf& contact);
+/// Completes what the options give of a body by the one with which a law was fitted to a run. Warns
+/// of the numbers that the options give otherwise: "K 0.5 (here 0.83)" stands for {} in the text of
+/// the warning.
+void take_body(Tool&, const std::string& run, const char* warning, const Body& of_law, Body&);
 
 /// Takes a geometry unless the options give one; adds it to `others` where that is another one.
-void take_geometry(const Tool&, Geometry other, Geometry& geometry, std::string& others);
+void take_geometry(const Tool&, bool other, bool& exact, std::string& others);
 
 /// The law of this run: the only one there is, or that of the row with its name. Throws Error if
 /// there is none.

@@ -137,10 +137,8 @@ class Tool {
   /// `fit`.
   void bodies(std::vector<Body>&, std::string& list, std::initializer_list<double Body::*>,
               FitOptions* = nullptr);
-  void geometry(Geometry& geometry) {
-    choice<Geometry>("--exact", geometry,
-                     {{"false", Geometry::approximate}, {"true", Geometry::exact}},
-                     "exact geometry: A = sqrt(1 - D^2/R^2), instead of 1", Values::none);
+  void geometry(bool& exact) {
+    flag("--exact", exact, "exact geometry: A = sqrt(1 - D^2/R^2), instead of 1");
   }
   void scene();        ///< --scene, whose keys are listed in tool_options.cpp
   void input();        ///< operands, --use --run --strict

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rolling body, and the geometry of its contact.
+// The rolling body, its mat, and the geometry of their contact.
 #pragma once
 
 #include <array>
@@ -23,6 +23,9 @@ struct Body {
   double wind = 0;             ///< speed of the air towards falling x [m/s], for a law with d2 v^2
   const Road* road = nullptr;  ///< the height of the track, to which the slope adds a constant
   double steepness = 1;        ///< factor of that height
+  /// The arm of F_H is A R. In the exact geometry A = sqrt(1 - D^2/R^2) (Eq. 8), else A = 1, as in
+  /// the paper's simulations (Eqs. 11 to 13).
+  bool exact = false;
 };
 
 /// A number of a body, as the tools name it.
@@ -41,9 +44,5 @@ inline constexpr std::array<NumberOfBody, 5> numbers_of_body = {
      {"wind", &Body::wind, nullptr}}};
 /// Those that may have a standard uncertainty.
 inline constexpr std::span uncertain_numbers = std::span(numbers_of_body).first<4>();
-
-/// The arm of F_H is A R. In the approximate geometry A = 1, as in the paper's simulations (Eqs. 11
-/// to 13); in the exact one A = sqrt(1 - D^2/R^2) (Eq. 8).
-enum class Geometry { approximate, exact };
 
 }  // namespace rolling

@@ -25,36 +25,35 @@ void check_shift(const Body& c, double D) {
   if (!(std::abs(D) <= c.R)) fail("the shift D = {:.6g} m is beyond the radius {:.6g} m", D, c.R);
 }
 
-double arm_factor(const Body& c, Geometry geometry, double D) {
-  if (geometry == Geometry::approximate) return 1;
+double arm_factor(const Body& c, double D) {
+  if (!c.exact) return 1;
   D = std::abs(D);
   return std::sqrt((c.R - D) / c.R * (1 + D / c.R));  // R - D is exact where D is near R
 }
 
 // Below 0 - x stands for -x: for x = 0 the result is then +0, and no table shows "-0".
 
-Acceleration accelerate(const Body& c, Geometry geometry, double D, const Incline& incline) {
+Acceleration accelerate(const Body& c, double D, const Incline& incline) {
   const auto [cos, tan] = incline;
-  const double A =
-      geometry == Geometry::exact && std::abs(D) >= c.R ? 0 : arm_factor(c, geometry, D);
-  const double A_D = geometry == Geometry::exact && A > 0 ? -D / (c.R * c.R * A) : 0;
+  const double A = c.exact && std::abs(D) >= c.R ? 0 : arm_factor(c, D);
+  const double A_D = c.exact && A > 0 ? -D / (c.R * c.R * A) : 0;
   const double arm = (c.K + A) * c.R;
   const double a = 0 - c.g * (D + A * c.R * tan) * cos / arm;
   const double by_D = -(c.g * cos * (1 + A_D * c.R * tan) + a * A_D * c.R) / arm;
   return {a, by_D, -c.g * D / arm, -c.g * A * c.R / arm};
 }
 
-double acceleration_from_shift(const Body& c, Geometry geometry, double D) {
+double acceleration_from_shift(const Body& c, double D) {
   check_shift(c, D);
-  return accelerate(c, geometry, D).a;
+  return accelerate(c, D).a;
 }
 
-double shift_from_acceleration(const Body& c, Geometry geometry, double a) {
+double shift_from_acceleration(const Body& c, double a) {
   const double cos = incline(c).cos;
   const double sin = incline(c).sin();
   const double K = c.K;
   const double s = 0 - a / c.g;
-  if (geometry == Geometry::approximate) return ((1 + K) * c.R * s - c.R * sin) / cos;
+  if (!c.exact) return ((1 + K) * c.R * s - c.R * sin) / cos;
   // Eq. 12 is s (K + A) = cos D/R + sin A with s = -a/g. At |D| = R, where A = 0, this is
   // K |s| = cos. For larger |s| the root below belongs to A < 0, and its |D| is less than R again,
   // so a test of |D| would not detect it; on a steep slope, tan > 1/K, two roots may have A > 0.

@@ -27,8 +27,8 @@ Incline incline(const Body&, double x, double v);
 /// Throws Error if |D| > R, where the body has no point.
 void check_shift(const Body&, double D);
 
-/// A = sqrt(1 - D^2/R^2) (Eq. 8), or 1 in the approximate geometry. The exact one needs |D| <= R.
-double arm_factor(const Body&, Geometry, double D);
+/// A = sqrt(1 - D^2/R^2) (Eq. 8) for |D| <= R in the exact geometry, else 1.
+double arm_factor(const Body&, double D);
 
 /// The acceleration of a body [m/s^2], and its derivatives by D and by the parts of gravity.
 struct Acceleration {
@@ -38,19 +38,17 @@ struct Acceleration {
 ///     v' = -g (D cos theta + A R sin theta) / ((K + A) R)
 /// In the exact geometry it goes on beyond |D| = R with A = 0: the error control of a solver then
 /// rejects the step.
-Acceleration accelerate(const Body&, Geometry, double D, const Incline&);
+Acceleration accelerate(const Body&, double D, const Incline&);
 /// The same on the mat of the body.
-inline Acceleration accelerate(const Body& c, Geometry geometry, double D) {
-  return accelerate(c, geometry, D, incline(c));
-}
+inline Acceleration accelerate(const Body& c, double D) { return accelerate(c, D, incline(c)); }
 /// The first of them. Throws Error when |D| > R.
-double acceleration_from_shift(const Body&, Geometry, double D);
+double acceleration_from_shift(const Body&, double D);
 
 /// Shift D [m] from an observed acceleration a [m/s^2], the inverse of acceleration_from_shift().
 /// With A = 1 this is Eq. 11, which gives a shift for any acceleration, beyond the radius too. In
 /// the exact geometry there is one shift for |a| <= g cos theta / K; else it throws Error, since
 /// there is none, or, on a mat steeper than tan theta = 1/K, perhaps two. A body that speeds up on
 /// a level mat has D < 0, which is returned as it is.
-double shift_from_acceleration(const Body&, Geometry, double a);
+double shift_from_acceleration(const Body&, double a);
 
 }  // namespace rolling

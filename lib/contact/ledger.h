@@ -18,14 +18,13 @@ class Ledger {
  public:
   /// Velocity [m/s] and shift [m]. Throws Error when |D| > R in the exact geometry; with A = 1 the
   /// formulas hold for any D.
-  Ledger(const Body& c, Geometry geometry, double v, double D)
-      : Ledger(c, geometry, v, D, incline(c)) {}
+  Ledger(const Body& c, double v, double D) : Ledger(c, v, D, incline(c)) {}
   /// The same on another incline than that of the body, as on a road.
-  Ledger(const Body& c, Geometry geometry, double v, double D, const Incline& incline)
+  Ledger(const Body& c, double v, double D, const Incline& incline)
       : body_(c), incline_(incline), v_(v), D_(D), omega_(v / c.R) {
-    if (geometry == Geometry::exact) {
+    if (c.exact) {
       check_shift(c, D);
-      A_ = arm_factor(c, geometry, D);
+      A_ = arm_factor(c, D);
       one_minus_A_ = (D / c.R) * (D / c.R) / (1 + A_);  // does not cancel
     }
     // On an incline F_H = m (v' + g sin theta) with v' of Eq. 12.
@@ -216,7 +215,7 @@ class Balance {
   double L_N() const { return 0 - L.to_mat() - L_H(); }
 
  private:
-  static Ledger at_rest(const Body& body) { return {body, Geometry::approximate, 0, 0}; }
+  static Ledger at_rest(const Body& body) { return {body, 0, 0}; }
 
   Integral L_H_, air_;
   bool on_road_, momenta_;

@@ -15,17 +15,11 @@
 
 namespace rolling {
 
-/// How a column D was computed from accelerations: by Eq. 11 or by the exact root of Eq. 9, for
-/// this body.
-struct ShiftOf {
-  Body body;
-  Geometry geometry = Geometry::approximate;
-};
-/// The acceleration [m/s^2] from which the shift D [m] was computed. For A = 1 the relation is
-/// linear and holds for any D.
-inline double acceleration_of(const ShiftOf& by, double D) {
-  if (by.geometry == Geometry::exact) check_shift(by.body, D);
-  return accelerate(by.body, by.geometry, D).a;
+/// The acceleration [m/s^2] from which the shift D [m] of a body was computed, by Eq. 11 or by the
+/// exact root of Eq. 9. For A = 1 the relation is linear and holds for any D.
+inline double acceleration_of(const Body& body, double D) {
+  if (body.exact) check_shift(body, D);
+  return accelerate(body, D).a;
 }
 
 /// The data of one run in SI units: t [s], x [m], v [m/s], D [m], one element for each row. The
@@ -43,8 +37,8 @@ struct Run {
   FilterChain filters;  ///< the filters that made the fitted columns of x alone or of v alone, in
                         ///< order; empty if they are unknown. In the chain, the column D stands for
                         ///< the acceleration from which shift_of computed D.
-  std::optional<ShiftOf> shift_of = {};
-  std::string name = {};  ///< for messages
+  std::optional<Body> shift_of = {};  ///< the body for which the column D was computed
+  std::string name = {};              ///< for messages
 };
 
 inline constexpr PerQuantity<std::vector<double> Run::*> Run::columns{
@@ -64,7 +58,6 @@ inline Quantity fitted_column(Route route) {
 struct FitOptions {
   const LawForm* law = &laws().front();  ///< a v^b, or the law that is fitted instead
   bool fits_power() const { return law == &laws().front(); }
-  Geometry geometry = Geometry::approximate;
   /// The coefficients of the law that are fixed [SI], and v0 and x0.
   using Fixed = std::array<std::optional<double>, LawForm::most>;
   Fixed fixed = {};
@@ -94,10 +87,9 @@ inline constexpr std::array<SceneNumber, 3> scene_numbers{
      {"steepness", "", &Body::steepness, &FitOptions::fit_steepness, 1},
      {"wind", "m/s", &Body::wind, &FitOptions::fit_wind, 1}}};
 
-/// The body of a run on this route, with the uncertainties of its numbers, and the geometry.
-inline ShiftOf contact_of(Route route, const Run& run, const FitOptions& options) {
-  if (is_trajectory(route)) return {run.body, options.geometry};
-  return run.shift_of.value_or(ShiftOf{});
+/// The body of a run on this route, with the uncertainties of its numbers.
+inline Body body_of(Route route, const Run& run) {
+  return is_trajectory(route) ? run.body : run.shift_of.value_or(Body{});
 }
 
 /// How a run differs from its filters.

@@ -141,8 +141,7 @@ Mismatch mismatch(const FilterChain& filters, const Run& run) {
       continue;
     Recomputed computed = output;
     if (filter.to == Quantity::D)  // the filters speak of the acceleration
-      for (double& y : computed.values)
-        y = shift_from_acceleration(run.shift_of->body, run.shift_of->geometry, y);
+      for (double& y : computed.values) y = shift_from_acceleration(*run.shift_of, y);
     compare(run.t, computed, given, result);
   }
   return result;

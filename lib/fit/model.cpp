@@ -238,10 +238,8 @@ std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
     ObservedRun seen;
     if (all.size() > 1) seen.place = fmt::format("run {}: ", run.name);
     if (rows[r].empty()) fail("{}no row can be fitted", seen.place);
-    const auto [body, geometry] = contact_of(route, run, options);
-    seen.body = body;
+    seen.body = body_of(route, run);
     seen.x0 = run.x0;
-    seen.geometry = geometry;
     seen.origin = run.t.front();
     seen.y = taken(run[fitted_column(route)], rows[r]);
     if (route == Route::shift && known) {
@@ -291,13 +289,13 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
-  if (!body.road) return {body, runs()[run].geometry, law, v0};
+  if (!body.road) return {body, law, v0};
   // A search may come to such laws, under which a body in a hollow creeps: this takes seconds.
   if (law.at(parameters_.speed_unit()).D > body.R) fail("D is beyond the radius");
   const double way = runs()[run].way;
   if (way < 0) body.road = body.road->mirrored();
   const double x0 = parameters_.has_x0() ? parameters_.x0(theta, run) : runs()[run].x0;
-  return {body, runs()[run].geometry, law, v0, way * x0};
+  return {body, law, v0, way * x0};
 }
 
 namespace {

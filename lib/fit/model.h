@@ -142,7 +142,6 @@ using Rows = std::vector<std::size_t>;
 struct ObservedRun {
   std::string place;  ///< begins messages about the run; empty if there is no other
   Body body;          ///< the body and its mat; only what the motion depends on is meaningful
-  Geometry geometry = Geometry::approximate;
   double way = 1;     ///< direction of motion: -1 if the body rolls towards falling x (v < 0)
   double origin = 0;  ///< the time of the first row [s]: v0 and x0 hold there, t counts from it
   Quantity column = Quantity::v;  ///< the raw one: x or v of a roll; D of a law, or its logarithm

@@ -19,11 +19,10 @@ void move(Route route, Run& run, const NumberOfBody& number, double by) {
     run.body.*number.value += by;
     return;
   }
-  ShiftOf to = *run.shift_of;
-  to.body.*number.value += by;
+  Body to = *run.shift_of;
+  to.*number.value += by;
   for (double& D : run.D)
-    if (std::isfinite(D))
-      D = shift_from_acceleration(to.body, to.geometry, acceleration_of(*run.shift_of, D));
+    if (std::isfinite(D)) D = shift_from_acceleration(to, acceleration_of(*run.shift_of, D));
   run.shift_of = to;
 }
 
@@ -36,9 +35,8 @@ bool scales_a(Route route, const std::vector<Run>& runs, const FitOptions& optio
   for (std::size_t j = 0; j < options.law->coefficients.size(); ++j)
     if (options.fixed[j] && options.law->coefficients[j].D > 0) return false;
   return std::ranges::all_of(runs, [&](const Run& run) {
-    const ShiftOf by = contact_of(route, run, options);
-    return number.of(by.body) == value && by.geometry == Geometry::approximate &&
-           by.body.slope == 0;
+    const Body body = body_of(route, run);
+    return number.of(body) == value && !body.exact && body.slope == 0;
   });
 }
 
@@ -50,7 +48,7 @@ std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& ru
   for (const NumberOfBody& number : uncertain_numbers) {
     std::vector<Estimate> values;
     for (const Run& run : runs) {
-      const Estimate value = number.of(contact_of(route, run, options).body);
+      const Estimate value = number.of(body_of(route, run));
       if (value.sigma > 0 && std::ranges::find(values, value) == values.end())
         values.push_back(value);
     }
@@ -59,7 +57,7 @@ std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& ru
       const auto numbers_with = [&](double by) {
         std::vector<FittedNumber> numbers = fit.numbers();
         if (scales_a(route, runs, options, number, value)) {
-          Body body = contact_of(route, runs.front(), options).body;
+          Body body = body_of(route, runs.front());
           const double unit = (body.K + 1) * body.R / body.g;
           body.*number.value += by;
           for (std::size_t j = 0; j < fit.coefficients.size(); ++j)
@@ -69,8 +67,7 @@ std::vector<ErrorShare> shares_of_inputs(Route route, const std::vector<Run>& ru
         }
         std::vector<Run> changed = runs;
         for (Run& run : changed)
-          if (number.of(contact_of(route, run, options).body) == value)
-            move(route, run, number, by);
+          if (number.of(body_of(route, run)) == value) move(route, run, number, by);
         return (agree ? fit_route : fit_of_disagreeing)(route, changed, options).numbers();
       };
       const double step = value.value == 0 || number.value == &Body::slope

@@ -213,8 +213,8 @@ struct Logarithms {
 };
 
 /// H_a and H_v are the filters of the accelerations and the speeds of these rows.
-Logarithms logarithms_of(const Fitted& roll, std::size_t r, const ShiftOf& by,
-                         const BandMatrix& H_a, const BandMatrix& H_v) {
+Logarithms logarithms_of(const Fitted& roll, std::size_t r, const Body& body, const BandMatrix& H_a,
+                         const BandMatrix& H_v) {
   constexpr double step = 1e-4;  // of a difference quotient
   const PowerLaw law = *roll.law().power();
   const double way = roll.model.runs()[r].way;
@@ -222,9 +222,7 @@ Logarithms logarithms_of(const Fitted& roll, std::size_t r, const ShiftOf& by,
   for (double& value : raw) value *= way;  // along the motion
   const std::vector<double> speeds = H_v.times(raw);
   const std::vector<double> accelerations = H_a.times(raw);
-  const auto shift = [&](double a) {
-    return way * shift_from_acceleration(by.body, by.geometry, way * a);
-  };
+  const auto shift = [&](double a) { return way * shift_from_acceleration(body, way * a); };
   Logarithms all;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     const double v = speeds[i];

@@ -18,7 +18,7 @@ namespace {
 
 /// The run whose rows are means of blocks of so many of the first n rows; the last may be shorter.
 ObservedRun means(const ObservedRun& run, std::size_t n, std::size_t size) {
-  ObservedRun thin{run.place, run.body, run.geometry, run.way, run.origin, run.column};
+  ObservedRun thin{run.place, run.body, run.way, run.origin, run.column};
   thin.x0 = run.x0;
   for (std::size_t i = 0; i < n; i += size) {
     const std::size_t rows = std::min(size, n - i);

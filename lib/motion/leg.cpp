@@ -70,9 +70,8 @@ double integral_of_log(double m, double r, double e) {
 
 }  // namespace
 
-Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
-    : body_(body), geometry_(geometry), law_(law.in_wind(body.wind)), v0_(v0),
-      incline_(incline(body)), way_(1) {
+Leg::Leg(const Body& body, const Law& law, double v0)
+    : body_(body), law_(law.in_wind(body.wind)), v0_(v0), incline_(incline(body)), way_(1) {
   if (v0 == 0) {  // a leg of no length, from which nothing moves the end
     end_ = End::stop;
     stop_ = 0;
@@ -88,7 +87,7 @@ Leg::Leg(const Body& body, Geometry geometry, const Law& law, double v0)
   if (!std::isfinite(q0_)) fail("the deceleration at v0 = {} m/s has no finite value", v0);
   if (q0_ == 0 || start.balanced() || above_last_speed(v0, start) != 0) end_ = End::constant_speed;
   const auto power = law_.power();
-  if (!power || geometry == Geometry::exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
+  if (!power || body.exact || body.slope != 0 || way_ < 0 || q0_ == 0) return;
   power_ = power->b;
   for (std::size_t j = 0; j < derivatives(); ++j) q_c_[j] = start.q_c[j] / start.q;
   sums_ = closed_sums(-std::log(slowest), slowest);
@@ -134,15 +133,14 @@ Leg::Rate Leg::rate(double u) const {
   Rate r{};
   const double R = body_.R;
   auto [D, D_by_log_u] = law_.at(u, r.q_c.data());
-  const bool exact = geometry_ == Geometry::exact;
-  const bool at_radius = exact && D >= R && (u < v0_ || D > R);
+  const bool at_radius = body_.exact && D >= R && (u < v0_ || D > R);
   if (at_radius) {
     if (u >= v0_) check_shift(body_, D);
     D = R;
     D_by_log_u = 0;
     r.q_c = {};
   }
-  const Acceleration now = accelerate(body_, geometry_, D, incline_);
+  const Acceleration now = accelerate(body_, D, incline_);
   r.q = -way_ * now.a;
   const double by_D = at_radius ? 0 : -way_ * now.by_D;
   r.q_v = by_D * D_by_log_u / u;
@@ -151,12 +149,12 @@ Leg::Rate Leg::rate(double u) const {
   const double by_slope = cos * cos * (now.by_sin * cos - now.by_cos * incline_.sin());
   if (std::isfinite(r.q)) r.q_c[law_.size()] = -way_ * by_slope;
   if (law_.has_drag()) r.q_c[law_.size() + 1] = by_D * law_.by_wind(u);
-  const double A = at_radius ? 0 : arm_factor(body_, geometry_, D);
+  const double A = at_radius ? 0 : arm_factor(body_, D);
   const double lift = A * R * body_.slope;
   const double terms_of_net =
       std::abs(D) + std::abs(lift) + std::abs(D_by_log_u) + std::abs(law_.blast());
   r.noise = at_radius ? 1 : terms_of_net / std::abs(D + lift);
-  if (exact && !at_radius) r.noise += 1 / (A * A);
+  if (body_.exact && !at_radius) r.noise += 1 / (A * A);
   r.steepness = D == 0 ? 0 : std::abs(D_by_log_u / D);
   r.imbalance = terms_of_net > 0 ? std::abs(D + lift) / terms_of_net : 0;
   return r;
@@ -240,7 +238,7 @@ void Leg::add_panel() {
   for (;;) {
     double to = std::min(r_ + width, limit);
     const auto below = [&](double r) { return law_.at(speed(r)).D < body_.R; };
-    const bool deepens = geometry_ == Geometry::exact && radius_time_ == INFINITY && !below(to);
+    const bool deepens = body_.exact && radius_time_ == INFINITY && !below(to);
     if (deepens) to = last_where(r_, to, below);
     if (deepens && to - r_ <= narrowest * (1 + r_)) {
       reach_radius();
@@ -376,7 +374,7 @@ double Leg::stop_until(double t) {
 }
 
 double Leg::radius_time(double t) {
-  if (geometry_ == Geometry::approximate) return INFINITY;
+  if (!body_.exact) return INFINITY;
   reach(t);
   return radius_time_;
 }

@@ -45,7 +45,7 @@ class Leg {
   };
   /// From the speed v0 >= 0, on a mat that rises by body.slope along the motion, in the wind
   /// body.wind against it; from 0 it ends at once. Throws Error if the law is not defined there.
-  Leg(const Body&, Geometry, const Law&, double v0);
+  Leg(const Body&, const Law&, double v0);
 
   /// The state at t >= 0, and its derivatives at fixed t. From the stop on, v = 0 and its
   /// derivatives are 0. Throws Error where the speed has grown by a factor e^345.
@@ -116,7 +116,6 @@ class Leg {
   Point point(const Sums&, double v, double q) const;
 
   Body body_;
-  Geometry geometry_;
   Law law_;
   double v0_;
   Incline incline_;

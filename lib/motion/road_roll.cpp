@@ -22,10 +22,9 @@ enum { of_t, of_x, of_clock, first };
 
 }  // namespace
 
-RoadRoll::RoadRoll(const Body& body, Geometry geometry, const Law& law, double v0, double x0,
-                   double tolerance)
-    : body_(body), geometry_(geometry), with_(law.in_wind(body.wind)),
-      against_(law.in_wind(-body.wind)), x0_(x0), highest_(std::abs(v0)), count_(law.size() + 3) {
+RoadRoll::RoadRoll(const Body& body, const Law& law, double v0, double x0, double tolerance)
+    : body_(body), with_(law.in_wind(body.wind)), against_(law.in_wind(-body.wind)), x0_(x0),
+      highest_(std::abs(v0)), count_(law.size() + 3) {
   body.road->check(x0);
   end_.resize(first + 2 * (2 + count_));
   end_[of_x] = x0;
@@ -69,7 +68,7 @@ RoadRoll::Rate RoadRoll::rate(double u, double x, double way) const {
   const double curve = u * u / body_.g / cos;  // times h'' it adds to the cosine
   const double across = cos + curve * f * place.h2;
   const auto [D, D_by_log_u] = law.at(u, r.a_p);
-  const Acceleration now = accelerate(body_, geometry_, D, {across, way * sin / across});
+  const Acceleration now = accelerate(body_, D, {across, way * sin / across});
   r.N = across * body_.g;
   r.a = now.a;
   r.a_u = u > 0 ? (now.by_D * D_by_log_u + 2 * now.by_cos * curve * f * place.h2) / u : 0;

@@ -29,7 +29,7 @@ class RoadRoll : OdeSystem {
   /// From x0 with v0, which may be below 0, on body.road, whose heights are multiplied by
   /// body.steepness; with this error of a step. Errors as those of Leg, and where x0 is outside of
   /// the table.
-  RoadRoll(const Body&, Geometry, const Law&, double v0, double x0, double tolerance = 1e-12);
+  RoadRoll(const Body&, const Law&, double v0, double x0, double tolerance = 1e-12);
   RoadRoll(const RoadRoll&) = delete;  // the integrator refers to it
   RoadRoll& operator=(const RoadRoll&) = delete;
 
@@ -79,7 +79,6 @@ class RoadRoll : OdeSystem {
   [[noreturn]] void leaves(const char* what) const;
 
   Body body_;
-  Geometry geometry_;
   Law with_, against_;  // in the wind of a motion towards growing and falling x
   double x0_, highest_;
   std::size_t count_;  // of the parameters, beside v0 and x0, which are the first

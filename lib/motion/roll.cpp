@@ -49,13 +49,11 @@ void check_roll(const Body& body, const Law& law, double v0) {
   check_shift(body, D);
 }
 
-Roll::Roll(const Body& body, Geometry geometry, const Law& law, double v0, double x0,
-           double tolerance)
-    : body_(checked(body, law, body.road ? std::abs(v0) : v0)), geometry_(geometry),
-      law_(law.in_wind(body.wind)), v0_(body.road ? 0 : v0), ahead_(body, geometry, law, v0_),
-      way_on_(v0 == 0 && holds(-1) ? 1 : -1),
+Roll::Roll(const Body& body, const Law& law, double v0, double x0, double tolerance)
+    : body_(checked(body, law, body.road ? std::abs(v0) : v0)), law_(law.in_wind(body.wind)),
+      v0_(body.road ? 0 : v0), ahead_(body, law, v0_), way_on_(v0 == 0 && holds(-1) ? 1 : -1),
       turns_((v0 == 0 || ahead_.slows()) && !holds(way_on_)) {
-  if (body.road) road_ = std::make_shared<RoadRoll>(body, geometry, law, v0, x0, tolerance);
+  if (body.road) road_ = std::make_shared<RoadRoll>(body, law, v0, x0, tolerance);
 }
 
 /// Slope and wind as a body sees them that rolls in this direction.
@@ -71,7 +69,7 @@ Body Roll::from_rest(double way) const {
 bool Roll::holds(double way) const {
   const Body body = from_rest(way);
   const Law law = law_.in_wind(body.wind);
-  const auto balances = [&](double D) { return accelerate(body, geometry_, D).a <= 0; };
+  const auto balances = [&](double D) { return accelerate(body, D).a <= 0; };
   return balances(law.at_rest()) || balances(law.at(Leg::negligible * v0_).D);
 }
 
@@ -79,7 +77,7 @@ bool Roll::holds(double way) const {
 Leg& Roll::back() {
   if (!back_) {
     const double first = first_part * (v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R));
-    back_.emplace(from_rest(way_on_), geometry_, law_, first);
+    back_.emplace(from_rest(way_on_), law_, first);
   }
   return *back_;
 }

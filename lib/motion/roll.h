@@ -41,7 +41,7 @@ class Roll {
   /// exact geometry for D(v0) > R.
   /// x0 and the tolerance are those of a RoadRoll, whose errors it has then; there v0 may be below
   /// 0.
-  Roll(const Body&, Geometry, const Law&, double v0, double x0 = 0, double tolerance = 1e-12);
+  Roll(const Body&, const Law&, double v0, double x0 = 0, double tolerance = 1e-12);
 
   /// The state at t >= 0 [s], x counted from 0, and its partial derivatives at fixed t: by v0, by
   /// the coefficients of the law and, behind them, by the slope and the wind. Once the body rests,
@@ -77,7 +77,6 @@ class Roll {
   Leg& back();
 
   Body body_;
-  Geometry geometry_;
   Law law_;
   double v0_;
   Leg ahead_;                       // on a road of no length

@@ -16,8 +16,7 @@ namespace {
 class SpeedRoll final : public Motion {
  public:
   SpeedRoll(const Scene& scene, double tolerance)
-      : roll_(scene.body, scene.geometry, scene.law, scene.v0, scene.x0, tolerance),
-        geometry_(scene.geometry), x0_(scene.x0) {
+      : roll_(scene.body, scene.law, scene.v0, scene.x0, tolerance), x0_(scene.x0) {
     seek(0);
   }
 
@@ -36,7 +35,7 @@ class SpeedRoll final : public Motion {
   double velocity() override { return state_.v; }
   double acceleration() override {
     if (state_.a == 0 || roll_.body().road) return 0 + state_.a;  // no -0
-    return acceleration_from_shift(roll_.body(), geometry_, shift());
+    return acceleration_from_shift(roll_.body(), shift());
   }
   double shift() override {
     const double D = roll_.law()(state_.v);
@@ -48,14 +47,13 @@ class SpeedRoll final : public Motion {
 
  private:
   Roll roll_;
-  Geometry geometry_;
   double x0_;
   Roll::Point state_{};
 };
 
 /// The integrals of Roll are closed forms there (Eq. 13).
 bool has_closed_form(const Scene& s) {
-  return s.law.power() && s.geometry == Geometry::approximate && s.body.slope == 0 && !s.body.road;
+  return s.law.power() && !s.body.exact && s.body.slope == 0 && !s.body.road;
 }
 
 }  // namespace
@@ -67,7 +65,7 @@ Method best_method(const Scene& scene) {
 
 std::unique_ptr<Motion> start(const Scene& scene, Method method, double rtol,
                               unsigned long most_steps) {
-  const auto& [body, geometry, law, bulge, v0, x0] = scene;
+  const auto& [body, law, bulge, v0, x0] = scene;
   if (!std::isfinite(x0)) fail("the initial position x0 = {} must be finite", x0);
   check_roll(body, law, v0);
   if (body.road && method.kind == Method::solver)

@@ -25,7 +25,6 @@ struct Bulge {
 
 struct Scene {
   Body body;
-  Geometry geometry;
   Law law;
   Bulge bulge{0};  ///< of length 0: no memory
   double v0, x0;   ///< at t = 0; v0 >= 0

@@ -14,8 +14,8 @@
 namespace rolling {
 
 SolvedRoll::SolvedRoll(const Scene& scene, Stepper stepper, unsigned long most_steps)
-    : body_(scene.body), geometry_(scene.geometry), incline_(incline(body_)), v0_(scene.v0),
-      stepper_(stepper), most_steps_(most_steps) {
+    : body_(scene.body), incline_(incline(body_)), v0_(scene.v0), stepper_(stepper),
+      most_steps_(most_steps) {
   if (v0_ > 0 && v0_ < least_speed)
     fail("the initial velocity v0 = {} is too small for a solver: the least is {:g} m/s", v0_,
          least_speed);
@@ -50,7 +50,7 @@ void SolvedRoll::seek(double t) {
 
 double SolvedRoll::acceleration() {
   const double D = shift();
-  return at_rest_ ? 0 : acceleration_from_shift(body_, geometry_, D);
+  return at_rest_ ? 0 : acceleration_from_shift(body_, D);
 }
 
 namespace {
@@ -65,7 +65,7 @@ constexpr double last_part = 1e-10;
 IntegratedRoll::IntegratedRoll(const Scene& s, Stepper stepper, double rtol,
                                unsigned long most_steps)
     : SolvedRoll(s, stepper, most_steps), law_(s.law.in_wind(s.body.wind)) {
-  Roll roll(s.body, s.geometry, s.law, s.v0);
+  Roll roll(s.body, s.law, s.v0);
   const double unit = v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R);
   if (std::isfinite(roll.stop_time())) {
     const auto power = law_.power();
@@ -89,7 +89,7 @@ double IntegratedRoll::floored(double v) const {
 
 void IntegratedRoll::derivative(const double* y, double* dydt) const {
   dydt[0] = y[1];
-  dydt[1] = accelerate(body_, geometry_, floored(y[1]), incline_).a;
+  dydt[1] = accelerate(body_, floored(y[1]), incline_).a;
 }
 
 void IntegratedRoll::jacobian(const double* y, double* dfdy) const {
@@ -97,26 +97,26 @@ void IntegratedRoll::jacobian(const double* y, double* dfdy) const {
   dfdy[0] = dfdy[2] = dfdy[3] = 0;
   dfdy[1] = 1;
   if (v > floor_)
-    dfdy[3] = accelerate(body_, geometry_, floored(y[1]), incline_).by_D * law_.at(v).by_log_v / v;
+    dfdy[3] = accelerate(body_, floored(y[1]), incline_).by_D * law_.at(v).by_log_v / v;
 }
 
 double IntegratedRoll::longest_step(const double* y) const {
   const double v = std::max(std::abs(y[1]), floor_);
   if (v == 0) return INFINITY;
-  return v / (2 * std::abs(accelerate(body_, geometry_, floored(y[1]), incline_).a));
+  return v / (2 * std::abs(accelerate(body_, floored(y[1]), incline_).a));
 }
 
 bool IntegratedRoll::advance(Course& course, double t, unsigned long steps) {
   Integrator& ode = course.ode;
   const bool stops = ode.advance(t, steps, [&](const std::vector<double>& y) {
-    if (geometry_ == Geometry::exact && std::abs(law_(y[1])) >= body_.R)
+    if (body_.exact && std::abs(law_(y[1])) >= body_.R)
       fail("at t = {:.6g} s the shift has grown to the radius {:.6g} m", ode.time(), body_.R);
     law_.check_speed(y[1]);
     return v0_ > 0 ? y[1] - floor_ : 1;
   });
   if (!stops) return false;
   const double v = ode.state()[1];
-  const Acceleration now = accelerate(body_, geometry_, law_(v), incline_);
+  const Acceleration now = accelerate(body_, law_(v), incline_);
   const double exponent = law_.at(v).by_log_v * now.by_D / now.a;
   const double left = creeps_ ? 0 : v / ((1 - exponent) * -now.a);
   ode.restart(ode.time() + left, {ode.state()[0], std::copysign(0, way_on_)});
@@ -150,7 +150,9 @@ Stepper memory_stepper(const Scene& scene) {
   // the factor 1 + damping c dD/dv.
   const auto [D, by_log_v] = scene.law.at(scene.v0);
   const double damping = scene.bulge.damping;
-  const double q = std::abs(accelerate(scene.body, Geometry::approximate, D).a);
+  Body body = scene.body;
+  body.exact = false;  // A = 1 is near enough
+  const double q = std::abs(accelerate(body, D).a);
   const double slowing = scene.v0 / q + damping * by_log_v / D;
   const double following = scene.bulge.length / (scene.v0 + damping * q);
   if (slowing > very_stiff * following) return gsl_odeiv2_step_bsimp;
@@ -174,7 +176,7 @@ void MemoryRoll::derivative(const double* y, double* dydt) const {
   const double z = y[2];
   dydt[0] = v;
   dydt[2] = std::abs(v) * (law_(v) - z) / bulge_.length;
-  dydt[1] = accelerate(body_, geometry_, z + bulge_.damping * dydt[2], incline_).a;
+  dydt[1] = accelerate(body_, z + bulge_.damping * dydt[2], incline_).a;
 }
 
 void MemoryRoll::jacobian(const double* y, double* dfdy) const {
@@ -182,7 +184,7 @@ void MemoryRoll::jacobian(const double* y, double* dfdy) const {
   const double z = y[2];
   const double speed = std::abs(v);
   const double dz = speed * (law_(v) - z) / bulge_.length;
-  const double dv_dD = accelerate(body_, geometry_, z + bulge_.damping * dz, incline_).by_D;
+  const double dv_dD = accelerate(body_, z + bulge_.damping * dz, incline_).by_D;
   const double dz_dv =
       ((1 + law_.b) * std::abs(law_(v)) - std::copysign(1.0, v) * z) / bulge_.length;
   const double dz_dz = -speed / bulge_.length;
@@ -201,7 +203,7 @@ double MemoryRoll::longest_step(const double* y) const {
 
 double MemoryRoll::fastest(const std::vector<double>& y) const {
   const double z = y[2];
-  const double c = body_.g / ((body_.K + arm_factor(body_, geometry_, z)) * body_.R);
+  const double c = body_.g / ((body_.K + arm_factor(body_, z)) * body_.R);
   const double power = 2 + law_.b;
   const double of_bulge = power * bulge_.length * c * z * z / (2 * law_.a);
   return std::pow(std::pow(std::abs(y[1]), power) + of_bulge, 1 / power);

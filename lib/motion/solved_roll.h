@@ -44,7 +44,6 @@ class SolvedRoll : public Motion, protected OdeSystem {
   virtual bool advance(Course&, double t, unsigned long steps) = 0;
 
   Body body_;
-  Geometry geometry_;
   Incline incline_;
   double v0_;
   bool at_rest_ = false, turns_ = false;

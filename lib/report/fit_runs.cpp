@@ -229,6 +229,7 @@ void Bodies::give_to(std::vector<Run>& runs) const {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Run& run = runs[i];
     run.body = all[value_of_run(list, all.size(), i, runs.size())];
+    run.body.exact = exact;
     if (!begins.empty()) run.x0 = begins[value_of_run("--x0", begins.size(), i, runs.size())];
     else if (run.body.road && !run.x.empty()) run.x0 = run.x.front();
   }
@@ -267,15 +268,15 @@ void doubt_speed(Tool& tool, const FitOfRuns& fit) {
   }
 }
 
-void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs, Geometry geometry) {
+void warn_of_unused_body(Tool& tool, const std::vector<Run>& runs) {
   std::string unused;
   for (const char* option : {"shape-factor", "radius", "gravity", "slope", "exact"})
     if (tool.on_command_line(option)) add_item(unused, std::string("--") + option);
   for (const Run& run : runs) {
-    ShiftOf given{run.body, geometry};
+    Body given = run.body;
     if (run.shift_of)
-      take_contact(tool, run.name, "D was computed with {}: the fit uses the numbers of D",
-                   *run.shift_of, given);
+      take_body(tool, run.name, "D was computed with {}: the fit uses the numbers of D",
+                *run.shift_of, given);
     else if (!unused.empty())
       tool.warn(run.name, "not used: " + unused + ": no `##` line says how D was computed");
   }
@@ -305,14 +306,13 @@ void fit_rows(Tool& tool, const Bodies& bodies) {
   FitRows rows = read_rows(tool);
   warn_of_same_rows(tool, rows);
   bodies.give_to(rows.runs);
-  std::vector<std::optional<ShiftOf>> of_runs;
+  std::vector<std::optional<Body>> of_runs;
   for (Run& run : rows.runs) {
     tool.know_run(run.name);
     if (run.shift_of) {
-      ShiftOf contact{run.body, run.shift_of->geometry};
-      take_contact(tool, run.name, "the row was fitted with {}", *run.shift_of, contact);
-      run.body = contact.body;
-      run.shift_of = contact;
+      run.body.exact = run.shift_of->exact;
+      take_body(tool, run.name, "the row was fitted with {}", *run.shift_of, run.body);
+      run.shift_of = run.body;
     }
     of_runs.push_back(run.shift_of);
   }

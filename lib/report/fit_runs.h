@@ -39,6 +39,7 @@ struct Bodies {
   std::string list = {};            ///< the option that has one for each run
   std::vector<double> begins = {};  ///< x0 of runs of speeds on a road, likewise
   std::string height = {};          ///< the file of the road
+  bool exact = false;               ///< the geometry, see Body
 
   void give_to(std::vector<Run>&) const;
 };
@@ -50,7 +51,7 @@ void warn_of_copies(Tool&, Route, const std::vector<Run>&);
 
 /// Warns of a geometry and of numbers of the body that a fit of D does not use: D was computed with
 /// others, or it is not known with which.
-void warn_of_unused_body(Tool&, const std::vector<Run>&, Geometry);
+void warn_of_unused_body(Tool&, const std::vector<Run>&);
 
 /// A number of a row of fitpower, and its column.
 struct Cell {

@@ -143,7 +143,7 @@ class Remarks {
       const Run& run = fit_.runs[i];
       const double v = i < r_.v0.size() ? std::abs(r_.v0[i].value) : fastest(run);
       const double D = r_.law(v);
-      const double R = contact_of(fit_.route, run, options_).body.R;
+      const double R = body_of(fit_.route, run).R;
       const bool beyond = R > 0 && D > R;  // D of a table alone has no R
       if (!beyond && !(std::abs(D) < levels::least_D_over_R * R)) continue;
       spoilt_ |= beyond;  // steel on steel is not far from the other limit

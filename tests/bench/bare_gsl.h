@@ -48,8 +48,7 @@ class BareGsl final : public Motion {
   std::size_t dimension() const { return scene_.bulge.length > 0 ? 2 : 1; }
 
   double pull(double D) const {
-    const double d = D / scene_.body.R,
-                 A = scene_.geometry == Geometry::exact ? std::sqrt(1 - d * d) : 1;
+    const double d = D / scene_.body.R, A = scene_.body.exact ? std::sqrt(1 - d * d) : 1;
     return -scene_.body.g * d / (scene_.body.K + A);
   }
   double law(double v) const {

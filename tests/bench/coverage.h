@@ -100,7 +100,7 @@ class Simulation {
     rolling::History history = rolling::history_of(c_.history, run.t);
     run.filters = std::move(history.filters);
     run.shift_of = history.shift_of;
-    if (run.shift_of) run.shift_of->body.K = scene_.K;
+    if (run.shift_of) run.shift_of->K = scene_.K;
     std::map<std::string, Column> columns{{c_.raw == Case::x ? "x" : "v", raw}};
     for (const std::string& line : c_.history) filter(line, run.t, columns);
     run.v = columns["v"];
@@ -120,8 +120,8 @@ class Simulation {
     if (c_.down > 0) body.slope = way_ * slope;
     rolling::Roll truth =
         c_.scatter > 0 || c_.down > 0
-            ? rolling::Roll(body, rolling::Geometry::approximate,
-                            rolling::PowerLaw{scene_.a * (1 + noise_(c_.scatter)), scene_.b}, 0.5)
+            ? rolling::Roll(body, rolling::PowerLaw{scene_.a * (1 + noise_(c_.scatter)), scene_.b},
+                            0.5)
             : truth_;
     const double origin = c_.only_rounded ? c_.resolution * uniform() : 0;
     const std::size_t n = c_.down > 0 ? static_cast<std::size_t>(truth.stop_time() / dt) + 1 : n_;
@@ -193,7 +193,7 @@ class Simulation {
   }
   /// simulate --sensor pasco | smooth --coast -c x -w 1
   Column free_roll(Column& times) {
-    const rolling::Scene roll{scene_.body(), {}, scene_.law(), c_.bulge, 0.5, 0};
+    const rolling::Scene roll{scene_.body(), scene_.law(), c_.bulge, 0.5, 0};
     rolling::SonarOptions sonar;
     sonar.seed = random_();
     std::vector<rolling::Sample> samples;
@@ -243,8 +243,8 @@ inline Row measure(const Case& c, const Scene& scene, int runs, unsigned seed) {
   const Column truths = c.law > 0 ? c.c : Column{scene.a, scene.b};
   rolling::Body body = scene.body();
   body.slope = c.rises;
-  rolling::Roll truth(body, rolling::Geometry::approximate,
-                      c.law > 0 ? rolling::Law(*options.law, c.c) : rolling::Law(scene.law()), 0.5);
+  rolling::Roll truth(body, c.law > 0 ? rolling::Law(*options.law, c.c) : rolling::Law(scene.law()),
+                      0.5);
   options.robust = c.outliers > 0;
   options.fit_slope = c.down > 0;
   options.possible_filters = rolling::filters_of_sensors();

@@ -75,7 +75,7 @@ class Cvode final : public Motion {
   static int derivative(double, N_Vector y, N_Vector dydt, void* self) {
     auto& me = *static_cast<Cvode*>(self);
     if (++me.evaluations_ > most_evaluations) return -1;
-    const auto& [body, geometry, law, bulge, v0, x0] = me.scene_;
+    const auto& [body, law, bulge, v0, x0] = me.scene_;
     const double v = NV_Ith_S(y, 0);
     double D = 0;
     if (bulge.length > 0) {
@@ -85,7 +85,7 @@ class Cvode final : public Motion {
     } else {
       D = law(std::max(v, me.floor_));
     }
-    NV_Ith_S(dydt, 0) = accelerate(body, geometry, D).a;
+    NV_Ith_S(dydt, 0) = accelerate(body, D).a;
     return 0;
   }
   static int above_floor(double, N_Vector y, double* g, void* self) {

@@ -88,7 +88,7 @@ inline TurningRuns turning_runs(const Turning& body, double slope, Route route, 
   TurningRuns all{{body.law.a}, {body.law.b}, {slope}};
   FitOptions options;
   options.fit_slope = true;
-  Roll roll({1, body.R, body.K, 9.81, slope}, Geometry::approximate, body.law, 0.5);
+  Roll roll({1, body.R, body.K, 9.81, slope}, body.law, 0.5);
   const double turn = roll.stop_time();
   for (int k = 0; k < runs; ++k) {
     const double way = k % 2 ? 1 : -1;
@@ -121,12 +121,11 @@ struct InputQuantities {
 inline InputQuantities input_quantities(int draws, unsigned seed) {
   Body body = troubled::cylinder;
   body.slope = 0.002;
+  body.exact = true;
   Body uncertain = body;
   uncertain.sigma_R = 4e-4, uncertain.sigma_K = 0.01, uncertain.sigma_g = 0.01;
   uncertain.sigma_slope = 3e-4;
-  Roll truth(body, Geometry::exact, CR, troubled::v0);
-  FitOptions options;
-  options.geometry = Geometry::exact;
+  Roll truth(body, CR, troubled::v0);
   simulated::Noise noise(seed);
   InputQuantities all{{CR.a}, {CR.b}, {troubled::v0}};
   double ab = 0;
@@ -140,7 +139,7 @@ inline InputQuantities input_quantities(int draws, unsigned seed) {
     }
     if (k % 100 == 0) {
       run.body = uncertain;
-      const FitResult r = fit(Route::position, {run}, options);
+      const FitResult r = fit(Route::position, {run}, {});
       all.stated_a += r.sigma_a / stating;
       all.stated_b += r.sigma_b / stating;
       all.stated_v0 += r.v0[0].sigma / stating;
@@ -152,7 +151,7 @@ inline InputQuantities input_quantities(int draws, unsigned seed) {
     run.body.R += noise(uncertain.sigma_R);
     run.body.g += noise(uncertain.sigma_g);
     run.body.slope += noise(uncertain.sigma_slope);
-    const FitResult r = fit(Route::position, {run}, options);
+    const FitResult r = fit(Route::position, {run}, {});
     all.a.add(r.a, r.sigma_a);
     all.b.add(r.b, r.sigma_b);
     all.v0.add(r.v0[0].value, r.v0[0].sigma);
@@ -172,7 +171,7 @@ inline MinSpeed min_speed(PowerLaw law, double limit, int runs, unsigned seed) {
   MinSpeed all{{law.a}, {law.b}};
   FitOptions options;
   options.min_speed = limit;
-  Roll truth(troubled::cylinder, Geometry::approximate, law, troubled::v0);
+  Roll truth(troubled::cylinder, law, troubled::v0);
   for (int k = 0; k < runs; ++k) {
     Run run{};
     run.body = troubled::cylinder;

@@ -16,6 +16,7 @@
 
 #include "base/gsl.h"
 #include "motion/scene.h"
+#include "unit/exact_body.h"
 #include "unit/motion/closed_roll.h"
 #include "unit/motion/exact_form_reference.h"
 #include "unit/motion/random_scene.h"
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
         scenes % 20 == 0 ? deep_scene(random, scenes / 20) : random_scene(random);
     const ExactFormReference reference(scene.body, scene.law, scene.v0);
     const auto rolled =
-        start({scene.body, Geometry::exact, scene.law, {0}, scene.v0, 0}, {Method::exact}, 0);
+        start({exact_body(scene.body), scene.law, {0}, scene.v0, 0}, {Method::exact}, 0);
     Motion& motion = *rolled;
     const double T = motion.stop_time();
     for (int i = 0; i < 4; ++i) {
@@ -105,9 +106,8 @@ int main(int argc, char** argv) {
 
   const auto closed_owned = closed_roll({1.375, 0.04, 0.5}, {1.87e-3, 0.215}, 0.5);
   Motion& closed = *closed_owned;
-  const auto rolled =
-      start({{1.375, 0.04, 0.5}, Geometry::exact, PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
-            {Method::exact}, 0);
+  const auto rolled = start({exact_body({1.375, 0.04, 0.5}), PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
+                            {Method::exact}, 0);
   Motion& exact = *rolled;
   const auto along = [](auto& motion, auto of) {
     return [&motion, of] {

@@ -22,8 +22,7 @@ constexpr std::size_t samples = 200;  // to 1.2 times the stop, with memory to t
 
 Scene scene(double a, double b, double K) {
   Scene roll{};
-  roll.body = {1.375, 0.04, K}, roll.geometry = Geometry::approximate, roll.law = PowerLaw{a, b},
-  roll.v0 = 0.5;
+  roll.body = {1.375, 0.04, K}, roll.law = PowerLaw{a, b}, roll.v0 = 0.5;
   return roll;
 }
 
@@ -73,7 +72,7 @@ std::vector<std::pair<std::string, Scene>> problems() {
     all.emplace_back(name, scene(1.87e-3, b, 0.5));
   for (const auto& [name, a] : {std::pair("exact-CR", 1.87e-3), std::pair("exact-deep", 0.04)}) {
     all.emplace_back(name, scene(a, 0.215, 0.5));
-    all.back().second.geometry = Geometry::exact;
+    all.back().second.body.exact = true;
   }
   for (const char* length : {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7"}) {
     all.emplace_back(fmt::format("memory-{}", length), scene(1.87e-3, 0.215, 0.5));

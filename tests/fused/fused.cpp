@@ -26,10 +26,10 @@ int main() {
   for (const double b : {0.0, 0.0244, 0.215, 0.9, 1.0 - 1e-12, 1.0, 1.5})
     for (const double K : {0.5, 0.83}) {
       const PowerLaw law{1.87e-3, b};
-      print(
-          *start({{1.375, 0.04, K}, Geometry::approximate, law, {0}, 0.5, 0}, {Method::closed}, 0));
+      print(*start({{1.375, 0.04, K}, law, {0}, 0.5, 0}, {Method::closed}, 0));
       for (const double slope : {0.0, 1e-3, 0.05})
-        print(*start({{1.375, 0.04, K, 9.81, slope}, Geometry::exact, law, {0}, 0.5, 0},
-                     {Method::exact}, 0));
+        print(*start(
+            {{.m = 1.375, .R = 0.04, .K = K, .slope = slope, .exact = true}, law, {0}, 0.5, 0},
+            {Method::exact}, 0));
     }
 }

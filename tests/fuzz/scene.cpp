@@ -12,13 +12,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const MemoryFile file({reinterpret_cast<const char*>(data), size});
   Body body{};
   LawOptions law;
-  Geometry geometry{};
   double v0 = 0;
   const Ran ran = with_streams("", [&] {
     Tool tool("scene", "");
     tool.body(body, {&Body::m, &Body::R, &Body::K, &Body::g, &Body::slope});
     add_options(tool, law);
-    tool.geometry(geometry);
+    tool.geometry(body.exact);
     tool.number("--v0", v0, not_negative, "");
     tool.scene();
     std::string program = "scene", option = "--scene", path = file.path();

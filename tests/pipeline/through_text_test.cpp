@@ -62,8 +62,7 @@ TEST_CASE(
       return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
     };
     equal += rows < t.size() && same(row[0], t[rows]) && same(row[1], smooth[rows]) &&
-             same(row[2], a[rows]) &&
-             same(row[3], shift_from_acceleration(body, Geometry::approximate, a[rows]));
+             same(row[2], a[rows]) && same(row[3], shift_from_acceleration(body, a[rows]));
   }
   ::pclose(pipe);
   CHECK(rows == t.size());

@@ -65,10 +65,10 @@ TEST_CASE("history: a shift-from-accel line tells the body and the geometry; D s
     CHECK(history.filters[0].reach == 0);
     CHECK(history.filters[0].apply(times, Series{-1}) == Series{-1});
     REQUIRE(history.shift_of);
-    CHECK(history.shift_of->body.K == 0.5);
-    CHECK(history.shift_of->body.R == 0.04);
-    CHECK(history.shift_of->body.g == 6);
-    CHECK((history.shift_of->geometry == Geometry::exact) == exact);
+    CHECK(history.shift_of->K == 0.5);
+    CHECK(history.shift_of->R == 0.04);
+    CHECK(history.shift_of->g == 6);
+    CHECK(history.shift_of->exact == exact);
   }
 }
 
@@ -186,15 +186,15 @@ TEST_CASE("history: uncertainties and the slope of shift-from-accel are read bac
   const History history =
       history_of({"shift-from-accel K 0.5+-0.005 R 0.04+-1e-05 g 9.81 slope -0.001+-2e-4"}, times);
   REQUIRE(history.shift_of);
-  CHECK(history.shift_of->body.sigma_K == 0.005);
-  CHECK(history.shift_of->body.sigma_R == 1e-5);
-  CHECK(history.shift_of->body.sigma_g == 0);
-  CHECK(history.shift_of->body.sigma_slope == 2e-4);
-  CHECK(history.shift_of->body.slope == -0.001);
+  CHECK(history.shift_of->sigma_K == 0.005);
+  CHECK(history.shift_of->sigma_R == 1e-5);
+  CHECK(history.shift_of->sigma_g == 0);
+  CHECK(history.shift_of->sigma_slope == 2e-4);
+  CHECK(history.shift_of->slope == -0.001);
   // A body whose mass is all in its axis.
   const auto point = history_of({"shift-from-accel K 0 R 0.04 g 9.81"}, times);
   REQUIRE(point.shift_of);
-  CHECK(point.shift_of->body.K == 0);
+  CHECK(point.shift_of->K == 0);
 }
 
 TEST_CASE(

@@ -33,9 +33,9 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}, bool 
   const TemporaryFile file(text), errors;
   Given given;
   Tool tool("tool", "");
-  ShiftOf contact{};
-  tool.body(contact.body, {&Body::R, &Body::K, &Body::g, &Body::slope});
-  tool.geometry(contact.geometry);
+  Body given_body{};
+  tool.body(given_body, {&Body::R, &Body::K, &Body::g, &Body::slope});
+  tool.geometry(given_body.exact);
   add_options(tool, given.options);
   tool.number("--v0", given.v0, any_number, "");
   words.insert(words.begin(), body.begin(), body.end());
@@ -47,7 +47,7 @@ Given law_of(const std::string& text, std::vector<std::string> words = {}, bool 
     const Redirect to_file(STDERR_FILENO, errors.name());
     given.status = tool.run(static_cast<int>(words.size()), arguments.data(), [&] {
       given.options.file = file.name();
-      given.files = read_laws(tool, given.options, contact, with_errors);
+      given.files = read_laws(tool, given.options, given_body, with_errors);
       given.law = given.file().law.power().value_or(given.options.power);
       return 0;
     });
@@ -63,9 +63,9 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
   const Given all = law_of(row);
   CHECK((all.status == 0 && all.said.empty() && !all.file().law.has_points()));
   CHECK((all.law.a == 1.5e-3 && all.law.b == 0.25 && all.file().v0 == 0.5));
-  CHECK(all.file().contact.body.slope == 0.001);
+  CHECK(all.file().body.slope == 0.001);
   const Given some = law_of(row, {"-a", "2e-3", "-b", "0.5", "--slope", "0.1"});
-  CHECK((some.law.a == 2e-3 && some.law.b == 0.5 && some.file().contact.body.slope == 0.1));
+  CHECK((some.law.a == 2e-3 && some.law.b == 0.5 && some.file().body.slope == 0.1));
   for (const char* half : {"-a", "-b"}) {
     const Given one = law_of(row, {half, "1"});
     CHECK((one.status == 2 && one.said.find("neither given nor in a scene") != std::string::npos));
@@ -74,7 +74,7 @@ TEST_CASE("law file: a row of fitpower, in its units; the command line wins", "[
   CHECK(none.said == "tool: --law adds nothing to the command line: leave it out\n");
   const Given bare = law_of("a b\n2e-3 0\n");
   CHECK((bare.law.a == 2e-3 && bare.law.b == 0 && std::isnan(bare.file().v0)));
-  CHECK(bare.file().contact.body.slope == 0);
+  CHECK(bare.file().body.slope == 0);
 }
 
 TEST_CASE("law file: where the roll of a row begins", "[cli]") {
@@ -154,19 +154,19 @@ TEST_CASE("law file: the line of fitpower has the body, unless the options have 
   const std::string line = "## fitpower 1.1.0 position K 0.5+-0.005,0.83 R 0.04 g 9.8 slope 0";
   const Given all = law_of(line + '\n' + rows, {}, false, {});
   REQUIRE((all.status == 0 && all.said.empty() && all.files.size() == 2));
-  const Body& one = law_of(all.files, "one").contact.body;
-  const Body& two = law_of(all.files, "two").contact.body;
+  const Body& one = law_of(all.files, "one").body;
+  const Body& two = law_of(all.files, "two").body;
   CHECK((one.K == 0.5 && one.sigma_K == 0.005 && one.R == 0.04 && one.g == 9.8));
   CHECK((two.K == 0.83 && two.sigma_K == 0 && two.R == 0.04 && two.g == 9.8));
-  CHECK(all.files[0].contact.geometry == Geometry::approximate);
+  CHECK_FALSE(all.files[0].body.exact);
   CHECK_THROWS_AS(law_of(all.files, "three"), Error);
 
   const Given exact = law_of(line + " exact\n" + rows, {"-g", "9.8"}, false, {});
-  CHECK(exact.files[1].contact.geometry == Geometry::exact);
+  CHECK(exact.files[1].body.exact);
   CHECK(exact.said.empty());
   const Given other = law_of(line + '\n' + rows, {"-K", "0.83", "--exact"}, false, {});
-  CHECK(other.files[0].contact.body.K == 0.83);
-  CHECK(other.files[0].contact.geometry == Geometry::exact);
+  CHECK(other.files[0].body.K == 0.83);
+  CHECK(other.files[0].body.exact);
   CHECK(other.said.find("K 0.5+-0.005 (here 0.83)") != std::string::npos);
   CHECK(other.said.find("A = 1 (here --exact)") != std::string::npos);
 
@@ -176,7 +176,7 @@ TEST_CASE("law file: the line of fitpower has the body, unless the options have 
       "NaN\tNaN\ttwo\n2e-3\t0\tthree\n",
       {}, false, {});
   REQUIRE(blank.files.size() == 2);
-  CHECK((blank.files[0].contact.body.K == 1 && blank.files[1].contact.body.K == 3));
+  CHECK((blank.files[0].body.K == 1 && blank.files[1].body.K == 3));
 
   // One row of two bodies is of neither.
   const std::string row = "# a[m]\tb\n1e-3\t0\n";
@@ -191,31 +191,31 @@ TEST_CASE("law file: the line of fitpower has the body, unless the options have 
   }
 }
 
-// What line_of_fit() writes, contacts_of_rows() reads.
+// What line_of_fit() writes, bodies_of_rows() reads.
 TEST_CASE("law file: a line of bodies is read back", "[cli]") {
-  ShiftOf one{{NAN, 0.04, 0.5, 9.81, 0.001}};
-  one.body.sigma_K = 0.01;
-  const ShiftOf two{{NAN, 0.04, 0.83, 9.81, -0.001}};
+  Body one{NAN, 0.04, 0.5, 9.81, 0.001};
+  one.sigma_K = 0.01;
+  const Body two{NAN, 0.04, 0.83, 9.81, -0.001};
   for (const bool fits_slope : {false, true}) {
     FitOptions options;
     options.law = &laws()[2];
     options.fit_slope = fits_slope;
     const std::string line = line_of_fit("velocity", options, {one, two});
     CHECK(line.find(" velocity d0+d1*v K 0.5+-0.01,0.83 R 0.04 g 9.81 slope ") < 40);
-    const auto read = contacts_of_rows({line}, 2);
+    const auto read = bodies_of_rows({line}, 2);
     REQUIRE(read.size() == 2);
-    CHECK((read[0].body.sigma_K == 0.01 && read[1].body.K == 0.83));
-    if (fits_slope) CHECK(std::isnan(read[0].body.slope));
-    else CHECK((read[0].body.slope == 0.001 && read[1].body.slope == -0.001));
-    one.body.wind = 2.5;
+    CHECK((read[0].sigma_K == 0.01 && read[1].K == 0.83));
+    if (fits_slope) CHECK(std::isnan(read[0].slope));
+    else CHECK((read[0].slope == 0.001 && read[1].slope == -0.001));
+    one.wind = 2.5;
     options.law = &laws()[4];
-    const auto in_wind = contacts_of_rows({line_of_fit("velocity", options, {one, two})}, 2);
-    CHECK((in_wind.at(0).body.wind == 2.5 && in_wind.at(1).body.wind == 0));
+    const auto in_wind = bodies_of_rows({line_of_fit("velocity", options, {one, two})}, 2);
+    CHECK((in_wind.at(0).wind == 2.5 && in_wind.at(1).wind == 0));
     options.fit_wind = true;
     const std::string fitted = line_of_fit("velocity", options, {one, two});
-    CHECK(std::isnan(contacts_of_rows({fitted}, 2).at(0).body.wind));
+    CHECK(std::isnan(bodies_of_rows({fitted}, 2).at(0).wind));
   }
-  CHECK(contacts_of_rows({line_of_fit("shift", {}, {one, {}})}, 2).empty());
+  CHECK(bodies_of_rows({line_of_fit("shift", {}, {one, {}})}, 2).empty());
 }
 
 TEST_CASE("law file: what is neither is refused", "[cli]") {

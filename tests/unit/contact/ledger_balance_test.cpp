@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "unit/motion/closed_roll.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -20,7 +21,7 @@ TEST_CASE(
   Balance balance(body, true);
   for (int i = 0; i <= 37; ++i) {
     const double t = stop * i / 37;
-    balance.push(t, Ledger(body, Geometry::approximate, v0 - deceleration * t, D));
+    balance.push(t, Ledger(body, v0 - deceleration * t, D));
   }
   CHECK(std::abs(balance.energy.start() - 0.5 * (body.K + 1) * body.m * v0 * v0) <= 1e-15);
   CHECK(std::abs(balance.energy.to_mat() - balance.energy.start()) <= 1e-14);
@@ -33,7 +34,7 @@ TEST_CASE("a shift that is a tenth too large leaves a closure of a tenth", "[con
   const double D = 1e-3, deceleration = body.g * D / (1.5 * body.R);
   Balance balance(body, true);
   for (int i = 0; i <= 10; ++i)
-    balance.push(0.1 * i, Ledger(body, Geometry::approximate, 1 - deceleration * 0.1 * i, 1.1 * D));
+    balance.push(0.1 * i, Ledger(body, 1 - deceleration * 0.1 * i, 1.1 * D));
   CHECK(std::abs(balance.energy.closure() - 0.1) <= 1e-12);
   CHECK(std::abs(balance.energy.imbalance() - 0.1) <= 1e-12);
   CHECK(balance.energy.time_of_imbalance() == 1);
@@ -46,14 +47,14 @@ TEST_CASE("in the exact geometry the loss of a constant shift is its force's own
                deceleration = body.g * D / ((body.K + A) * body.R);
   Balance balance(body, true);
   for (int i = 0; i <= 4; ++i)
-    balance.push(0.01 * i, Ledger(body, Geometry::exact, 1 - deceleration * 0.01 * i, D));
+    balance.push(0.01 * i, Ledger(exact_body(body), 1 - deceleration * 0.01 * i, D));
   CHECK(std::abs(balance.energy.closure()) <= 1e-12);
 }
 
 TEST_CASE("a run whose energy does not change has no closure", "[contact]") {
   const Body body{1, 0.04, 0.5};
   Balance balance(body, true);
-  const Ledger now(body, Geometry::approximate, 0.5, 1e-3);
+  const Ledger now(body, 0.5, 1e-3);
   balance.push(0, now);
   CHECK(std::isnan(balance.energy.closure()));
   balance.push(1, now);
@@ -63,13 +64,14 @@ TEST_CASE("a run whose energy does not change has no closure", "[contact]") {
 TEST_CASE("on a slope the work of gravity is an entry of the balance", "[contact]") {
   // A constant shift, uphill and downhill: v falls on a line (Eq. 12), and what is missing at the
   // end went into the mat and into the height that the body has gained, m g sin theta (x - x0).
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double slope : {0.05, -0.003}) {
       const Body body{1.375, 0.04, 0.83, 9.81, slope};
-      const double D = 1e-3, a = acceleration_from_shift(body, geometry, D), v0 = 0.5, T = 0.7;
+      const double D = 1e-3, a = acceleration_from_shift(exact_body(body, is_exact), D), v0 = 0.5,
+                   T = 0.7;
       Balance balance(body, true);
       for (int i = 0; i <= 7; ++i)
-        balance.push(T * i / 7, Ledger(body, geometry, v0 + a * T * i / 7, D));
+        balance.push(T * i / 7, Ledger(exact_body(body, is_exact), v0 + a * T * i / 7, D));
       const double x = v0 * T + a * T * T / 2,
                    height = body.m * body.g * std::sin(std::atan(slope)) * x;
       CHECK(std::abs(balance.energy.to_gravity() - height) <= 1e-14);
@@ -79,7 +81,7 @@ TEST_CASE("on a slope the work of gravity is an entry of the balance", "[contact
       const Body level{1.375, 0.04, 0.83};
       Balance untold(level, true);
       for (int i = 0; i <= 7; ++i)
-        untold.push(T * i / 7, Ledger(level, geometry, v0 + a * T * i / 7, D));
+        untold.push(T * i / 7, Ledger(exact_body(level, is_exact), v0 + a * T * i / 7, D));
       CHECK(std::abs(untold.energy.closure()) > 0.05);
     }
 }
@@ -94,7 +96,7 @@ TEST_CASE("an exponent that is wrong meets the closure and not the balance at ev
   for (int i = 0; i <= 240; ++i) {
     const double t = i == 240 ? roll.stop_time() : 0.01 * i;
     roll.seek(t);
-    balance.push(t, Ledger(body, Geometry::approximate, roll.velocity(), 1.4378938594202331e-3));
+    balance.push(t, Ledger(body, roll.velocity(), 1.4378938594202331e-3));
   }
   CHECK(std::abs(balance.energy.closure()) < 1e-5);
   CHECK(std::abs(balance.energy.imbalance() - 0.0418) < 2e-4);
@@ -113,10 +115,10 @@ TEST_CASE("a right law does not fail by the quadrature", "[contact]") {
       const double T = std::min(roll.stop_time(), 6.0);
       for (int i = 0; i * dt < T; ++i) {
         roll.seek(i * dt);
-        balance.push(i * dt, Ledger(body, Geometry::approximate, roll.velocity(), roll.shift()));
+        balance.push(i * dt, Ledger(body, roll.velocity(), roll.shift()));
       }
       roll.seek(T);
-      balance.push(T, Ledger(body, Geometry::approximate, roll.velocity(), roll.shift()));
+      balance.push(T, Ledger(body, roll.velocity(), roll.shift()));
       CAPTURE(b, dt, balance.energy.closure());
       CHECK(balance.energy.imbalance() < 0.012 * dt * dt);  // the trapezoidal rule has 0.05 dt^2
       CHECK(std::abs(balance.p.closure()) < 0.1 * dt * dt);
@@ -126,16 +128,16 @@ TEST_CASE("a right law does not fail by the quadrature", "[contact]") {
 
 TEST_CASE("momentum and angular momentum balance by Newton and Euler", "[contact]") {
   // D constant, so that all forces are: what flows in by each of them is the force times the time.
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double slope : {0.0, 0.05, -0.003}) {
       const Body body{1.375, 0.04, 0.83, 9.81, slope};
       const double D = 0.01, v0 = 0.5, T = 0.2;
-      const double a = acceleration_from_shift(body, geometry, D);
+      const double a = acceleration_from_shift(exact_body(body, is_exact), D);
       Balance balance(body, true);
       for (int i = 0; i <= 7; ++i)
-        balance.push(T * i / 7, Ledger(body, geometry, v0 + a * T * i / 7, D));
+        balance.push(T * i / 7, Ledger(exact_body(body, is_exact), v0 + a * T * i / 7, D));
       const double theta = std::atan(slope);
-      const double A = geometry == Geometry::exact ? std::sqrt(1 - D * D / (body.R * body.R)) : 1;
+      const double A = is_exact ? std::sqrt(1 - D * D / (body.R * body.R)) : 1;
       const double F_N = body.m * body.g * std::cos(theta);
       const double F_H = body.m * (a + body.g * std::sin(theta));  // Newton, Eq. 4
       INFO(slope);
@@ -153,12 +155,12 @@ TEST_CASE("momentum and angular momentum balance by Newton and Euler", "[contact
 TEST_CASE("an error of the first speed counts once in the momenta, and twice in the energy",
           "[contact]") {
   const Body body{1, 0.04, 0.5};
-  const double D = 1e-3, a = acceleration_from_shift(body, Geometry::approximate, D), off = 1e-3;
+  const double D = 1e-3, a = acceleration_from_shift(body, D), off = 1e-3;
   Balance balance(body, true);
   for (int i = 0; i <= 1000; ++i) {
     const double v = a * (0.001 * i - 1);
     const double read = i == 0 ? v * (1 + off) : v;
-    balance.push(0.001 * i, Ledger(body, Geometry::approximate, read, D));
+    balance.push(0.001 * i, Ledger(body, read, D));
   }
   CHECK(std::abs(balance.p.closure() + off) < 2e-6);
   CHECK(std::abs(balance.L.closure() + off) < 2e-6);
@@ -168,8 +170,7 @@ TEST_CASE("an error of the first speed counts once in the momenta, and twice in 
 TEST_CASE("a body without angular momentum has no closure of it", "[contact]") {
   const Body cart{1, 0.04, 0};
   Balance balance(cart, true);
-  for (int i = 0; i <= 4; ++i)
-    balance.push(i, Ledger(cart, Geometry::approximate, 1 - 0.1 * i, 1e-3));
+  for (int i = 0; i <= 4; ++i) balance.push(i, Ledger(cart, 1 - 0.1 * i, 1e-3));
   CHECK(std::isnan(balance.L.closure()));
   CHECK(!std::isnan(balance.p.closure()));
 }

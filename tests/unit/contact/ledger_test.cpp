@@ -10,6 +10,7 @@
 #include "contact/contact.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -23,9 +24,10 @@ TEST_CASE("ledger: every quantity agrees with the forces (Eqs. 1 to 22), on slop
     const Body c{between(0.01, 5), between(1e-3, 2), between(0, 1), between(1, 25),
                  i % 3 == 0 ? 0 : between(-0.5, 0.5)};
     const double v = between(-3, 3), D = c.R * between(-1, 1), theta = std::atan(c.slope);
-    for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-      const Ledger e(c, geometry, v, D);
-      const double a = acceleration_from_shift(c, geometry, D), A = arm_factor(c, geometry, D),
+    for (const bool is_exact : {false, true}) {
+      const Ledger e(exact_body(c, is_exact), v, D);
+      const double a = acceleration_from_shift(exact_body(c, is_exact), D),
+                   A = arm_factor(exact_body(c, is_exact), D),
                    force = c.m * c.g * (1 + 1 / (c.K + A));
       const auto close = [&](double x, double y, double scale) {
         return std::abs(x - y) <= 8 * std::numeric_limits<double>::epsilon() * scale;
@@ -65,7 +67,7 @@ TEST_CASE("ledger: every quantity agrees with the forces (Eqs. 1 to 22), on slop
 
 TEST_CASE("ledger: over a whole run the outflow is the energy of the start (Eq. 23)", "[contact]") {
   // Simpson's rule in r, t = T (1 - r^4): the power falls like a power of T - t.
-  const auto whole = [](Motion& motion, const Body& body, Geometry geometry) {
+  const auto whole = [](Motion& motion, const Body& c) {
     const int n = 4000;
     const double T = motion.stop_time();
     double sum = 0;
@@ -75,7 +77,7 @@ TEST_CASE("ledger: over a whole run the outflow is the energy of the start (Eq. 
       sum += (i == 0 || i == n ? 1
               : i % 2          ? 4
                                : 2) *
-             Ledger(body, geometry, motion.velocity(), motion.shift()).P_diss() * 4 * r * r * r;
+             Ledger(c, motion.velocity(), motion.shift()).P_diss() * 4 * r * r * r;
     }
     return T * sum / (3 * n);
   };
@@ -84,21 +86,20 @@ TEST_CASE("ledger: over a whole run the outflow is the energy of the start (Eq. 
     const double energy = 0.5 * (K + 1) * body.m * 0.25;
     const auto closed_owned = closed_roll(body, {1.87e-3, 0.215}, 0.5, 0);
     Motion& closed = *closed_owned;
-    CHECK(std::abs(whole(closed, body, Geometry::approximate) / energy - 1) < 1e-9);
+    CHECK(std::abs(whole(closed, body) / energy - 1) < 1e-9);
     const auto exact =
-        start({body, Geometry::exact, PowerLaw{0.03, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
-    CHECK(std::abs(whole(*exact, body, Geometry::exact) / energy - 1) < 1e-9);
-    CHECK(std::abs(whole(*exact, body, Geometry::approximate) / energy - 1) >
-          1e-3);  // it does see the geometry
+        start({exact_body(body), PowerLaw{0.03, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
+    CHECK(std::abs(whole(*exact, exact_body(body)) / energy - 1) < 1e-9);
+    CHECK(std::abs(whole(*exact, body) / energy - 1) > 1e-3);  // it does see the geometry
   }
 }
 
 TEST_CASE("ledger: rolling backwards the mat gives energy back, and rest has no signs",
           "[contact]") {
   const Body body{1.375, 0.04, 0.5};
-  CHECK(Ledger(body, Geometry::exact, -0.01, 1e-3).P_diss() < 0);
+  CHECK(Ledger(exact_body(body), -0.01, 1e-3).P_diss() < 0);
   for (const double D : {0.0, 1e-3}) {
-    const Ledger rest(body, Geometry::exact, 0, D);
+    const Ledger rest(exact_body(body), 0, D);
     for (const double entry : {rest.omega(), rest.p(), rest.L(), rest.vP_H(), rest.vP_V(),
                                rest.E_trans(), rest.E_rot(), rest.I_E1(), rest.I_E2(), rest.P_T1(),
                                rest.P_R1(), rest.P_R2(), rest.P_T2(), rest.P_diss(), rest.P_g()}) {
@@ -106,18 +107,17 @@ TEST_CASE("ledger: rolling backwards the mat gives energy back, and rest has no 
       CHECK_FALSE(std::signbit(entry));
     }
   }
-  const Ledger level(body, Geometry::exact, 0.5, 0);
+  const Ledger level(exact_body(body), 0.5, 0);
   for (const double force : {level.F_H(), level.tau_N(), level.tau_H()})
     CHECK((force == 0 && !std::signbit(force)));
   const Body ring{1.375, 0.04, 0};
-  const Ledger back(ring, Geometry::approximate, -0.5, 1e-3);
+  const Ledger back(ring, -0.5, 1e-3);
   for (const double entry : {back.L(), back.vP_H(), back.E_rot(), back.I_E1()})
     CHECK((entry == 0 && !std::signbit(entry)));
 }
 
 TEST_CASE("ledger: a shift beyond the radius has a meaning only where A = 1", "[contact]") {
   const Body body{1.375, 0.04, 0.5};
-  CHECK_THROWS_AS(Ledger(body, Geometry::exact, 0.5, 0.05), Error);
-  CHECK(std::abs(Ledger(body, Geometry::approximate, 0.5, 0.05).P_diss() -
-                 1.25 * 0.5 * 1.375 * 9.81) < 1e-13);
+  CHECK_THROWS_AS(Ledger(exact_body(body), 0.5, 0.05), Error);
+  CHECK(std::abs(Ledger(body, 0.5, 0.05).P_diss() - 1.25 * 0.5 * 1.375 * 9.81) < 1e-13);
 }

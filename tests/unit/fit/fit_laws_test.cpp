@@ -322,7 +322,7 @@ TEST_CASE("laws: any coefficient can be fixed", "[fit]") {
   for (std::size_t law = 2; law < laws().size(); ++law) {
     FitOptions options;
     options.law = &laws()[law];
-    Roll truth(unit, Geometry::approximate, Law(laws()[law], truths[law]), 1);
+    Roll truth(unit, Law(laws()[law], truths[law]), 1);
     simulated::Noise noise(5);
     Run run{};
     run.body = unit;

@@ -26,7 +26,7 @@ const FilterChain chain = {
 /// Noisy positions, and the columns that the chain makes of them.
 Run filtered(int seed, std::size_t n = 60) {
   Run run{};
-  run.shift_of = ShiftOf{.body = {1, 0.04, 0.5}};
+  run.shift_of = Body{1, 0.04, 0.5};
   simulated::Noise noise(static_cast<unsigned>(seed));
   run.t = simulated::times(n);
   for (const double t : run.t) run.x.push_back(0.5 * t - 0.03 * t * t + noise(3e-4));

@@ -4,6 +4,7 @@
 #include "motion/roll.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 #include <limits>
 
@@ -220,7 +221,7 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
   std::mt19937 random(1);
   for (const std::size_t width : {5u, 31u}) {
     Run run{};
-    run.shift_of = ShiftOf{body};
+    run.shift_of = body;
     std::vector<double> x;
     for (int i = 0; i < 58; ++i) {
       if (i > 0 && random() % 5 == 0) continue;
@@ -254,20 +255,20 @@ TEST_CASE("shift: without noise, lost echoes and wide windows leave the law as i
 
 TEST_CASE("shift: made by the exact root of Eq. 9, it gives the law of an exact roll", "[fit]") {
   const Body body{1.375, 0.04, 0.5};
-  Roll roll(body, Geometry::exact, PowerLaw{1.2e-2, 0.3}, 0.5);  // D/R = 0.24 at first
+  Roll roll(exact_body(body), PowerLaw{1.2e-2, 0.3}, 0.5);  // D/R = 0.24 at first
   Run run{};
-  run.shift_of = ShiftOf{body, Geometry::exact};
+  run.shift_of = exact_body(body);
   for (int i = 0; i < 80; ++i) {
     run.t.push_back(0.005 * i);
     run.v.push_back(roll.at(run.t.back()).v);
   }
   run.filters = {simulated::differentiate(Quantity::v, Quantity::a), simulated::shift()};
   for (double a : run.filters[0].apply(run.t, run.v))
-    run.D.push_back(shift_from_acceleration(body, Geometry::exact, a));
+    run.D.push_back(shift_from_acceleration(exact_body(body), a));
   const auto r = fit(Route::shift, {run}, {});
   CHECK(std::abs(r.a / 1.2e-2 - 1) < 1e-6);
   CHECK(std::abs(r.b - 0.3) < 1e-6);
-  run.shift_of->geometry = Geometry::approximate;
+  run.shift_of->exact = false;
   CHECK(std::abs(fit(Route::shift, {run}, {}).a / 1.2e-2 - 1) > 1e-3);
 }
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "unit/fit/simulated.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 #include "unit/many.h"
 
 using namespace rolling;
@@ -303,15 +304,13 @@ TEST_CASE("trajectory: white noise, intervals that hold and no bias", "[fit]") {
 
 TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better than the free one",
           "[fit][many]") {
-  FitOptions options;
-  options.geometry = Geometry::exact;
   simulated::Noise noise(17);
   for (const double b : {-0.3, -0.1, -0.05, 0.05})
     for (const Route route : {Route::velocity, Route::position}) {
       const auto truth = simulated::roll(cylinder, 2e-3, b, 0.5);
       const double stop = std::pow(0.5, 1 - b) / ((1 - b) * truth.a * truth.c);
       Run run{};
-      run.body = cylinder;
+      run.body = exact_body(cylinder);
       for (int i = 0; i < 100; ++i) {
         const double t = 1.1 * stop * i / 99;
         run.t.push_back(t);
@@ -320,7 +319,7 @@ TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better th
       }
       const double parameters = route == Route::velocity ? 3 : 4;
       const auto rss = [&](std::optional<double> held) {
-        FitOptions of = options;
+        FitOptions of;
         of.fixed[1] = held;
         const double rms = fit(route, {run}, of).rms;
         return rms * rms * (100 - parameters + (held ? 1 : 0));
@@ -334,15 +333,14 @@ TEST_CASE("trajectory: in the exact geometry with a rest, no held b is better th
 TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
   const PowerLaw law{1.87e-3, 0.215}, fast{1.87e-3, 1.4};
   for (const auto& [of, v0] : {std::pair(law, 0.5), std::pair(fast, 2.0)})
-    for (const auto geometry : {Geometry::approximate, Geometry::exact})
+    for (const bool is_exact : {false, true})
       for (const bool position : {true, false})
         for (const bool inclined : {false, true}) {
           FitOptions options;
-          options.geometry = geometry;
           options.fit_slope = inclined;
           const Parameters q(options, position, 1, 1, 1);
           ObservedRun run;
-          run.body = cylinder, run.geometry = geometry,
+          run.body = exact_body(cylinder, is_exact),
           run.column = position ? Quantity::x : Quantity::v;
           for (int i = 0; i < 60000; ++i)
             run.t.push_back(5e-5 * i);  // the first law stops at 2.4 s
@@ -368,7 +366,7 @@ TEST_CASE("model: at dense times the roll is that of single times", "[fit]") {
               off[1 + j] = std::max(off[1 + j], std::abs(slopes[j] - single[1 + j]));
             for (std::size_t j = 0; j < 6; ++j) size[j] = std::max(size[j], std::abs(single[j]));
           }
-          CAPTURE(of.b, position, inclined, geometry == Geometry::exact);
+          CAPTURE(of.b, position, inclined, is_exact);
           CHECK(off[0] <= 1e-14 * size[0]);
           for (std::size_t j = 1; j < 6; ++j) CHECK(off[j] <= 1e-12 * size[j]);  // derivatives
         }

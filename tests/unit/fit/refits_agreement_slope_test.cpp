@@ -164,7 +164,7 @@ TEST_CASE("agreement: runs mostly at rest do not count where a slope is fitted",
       run.body = cylinder;
       Body seen = cylinder;
       seen.slope = way * slope;
-      Roll truth(seen, Geometry::approximate, rubber, 0.02);
+      Roll truth(seen, rubber, 0.02);
       for (int i = 0; i < 8; ++i) {
         run.t.push_back(0.06 * i);
         run.x.push_back(way * truth.at(run.t.back()).x + noise(3e-4));

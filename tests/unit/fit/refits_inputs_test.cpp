@@ -32,7 +32,7 @@ Run made_run(Route route, unsigned seed) {
   if (route == Route::shift || route == Route::loglog)
     run = simulated::shifts(cylinder, run.t, run.x, 9, "x");
   run.body = with_errors;
-  if (run.shift_of) run.shift_of->body = with_errors;
+  if (run.shift_of) run.shift_of = with_errors;
   return run;
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("input quantities: ln a moves by dK/(1 + K), dR/R and dg/g, b does not
       if (!filters_known) run.filters.clear();
       const auto r = fit(route, {run}, {});
       run.body = cylinder;
-      if (run.shift_of) run.shift_of->body = cylinder;
+      if (run.shift_of) run.shift_of = cylinder;
       const auto by_noise = fit(route, {run}, {});
       CAPTURE(static_cast<int>(route), filters_known);
       // By the logarithm of noise; or by noise of the speeds beside shifts without filters.
@@ -73,7 +73,7 @@ TEST_CASE("input quantities: on a level mat the shares are those of fits with ot
     const auto level = fit(route, {run}, {});
     // A slope that changes nothing, but lets the numbers be moved and the rows fitted again.
     run.body.slope = 1e-12;
-    if (run.shift_of) run.shift_of->body.slope = 1e-12;
+    if (run.shift_of) run.shift_of->slope = 1e-12;
     const auto all_but_level = fit(route, {run}, {});
     CAPTURE(static_cast<int>(route));
     REQUIRE(level.shares.size() == all_but_level.shares.size());

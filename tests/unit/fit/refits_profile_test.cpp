@@ -34,7 +34,7 @@ struct Count {
 
 Count count(const Scene& scene, std::size_t j, int runs) {
   const LawForm& form = laws()[scene.law];
-  Roll truth(scene.body, Geometry::approximate, Law(form, scene.c), scene.v0);
+  Roll truth(scene.body, Law(form, scene.c), scene.v0);
   simulated::Noise noise(1);
   FitOptions options;
   options.law = &form;
@@ -108,7 +108,7 @@ TEST_CASE("visited intervals: a mat that holds the body is no wall at b = 0", "[
 TEST_CASE("visited intervals: at the wall of b the others go on along it", "[fit]") {
   Body up{1, 0.02, 0.4};
   up.slope = 0.03;
-  Roll truth(up, Geometry::approximate, PowerLaw{1e-4, 0}, 0.5);
+  Roll truth(up, PowerLaw{1e-4, 0}, 0.5);
   simulated::Noise noise(11);
   FitOptions options;
   options.fit_slope = true;

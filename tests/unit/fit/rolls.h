@@ -18,7 +18,7 @@ inline Run roll(PowerLaw law, double slope, double way, simulated::Noise& noise,
   run.body = cylinder;
   Body seen = cylinder;
   seen.slope = way * slope;
-  Roll truth(seen, Geometry::approximate, law, 0.5);
+  Roll truth(seen, law, 0.5);
   // Rubber 5 mm/m downhill holds no body at rest: it creeps on at 0.03 mm/s.
   const double end = std::min(truth.stop_time(), 10.0);
   for (double t = 0; t < end; t += 0.04) {

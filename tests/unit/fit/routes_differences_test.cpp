@@ -163,7 +163,7 @@ TEST_CASE("differences: speeds with white noise and a sudden stop are not taken 
           "[fit]") {
   const PowerLaw law{1e-3, -0.2};
   const auto truth = simulated::roll(cylinder, law.a, law.b, 0.5);
-  Roll exact(cylinder, Geometry::approximate, law, 0.5);
+  Roll exact(cylinder, law, 0.5);
   FitOptions options;
   options.possible_filters = filters_of_sensors();
   simulated::Noise noise(44);

@@ -105,7 +105,7 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
 // hold a, and .67 hold b. What is not noise, the curve of a noiseless v(t), brings none.
 TEST_CASE("shift: noise of the speeds counts as a bias", "[fit][many]") {
   const PowerLaw law{1.87e-3, 0.215};
-  Roll truth({1, 0.04, 0.5}, Geometry::approximate, law, 0.5);
+  Roll truth({1, 0.04, 0.5}, law, 0.5);
   const auto rows = [&](double of_v, simulated::Noise& noise) {
     Run run;
     for (double t = 0; t < 2.2; t += 0.04) {

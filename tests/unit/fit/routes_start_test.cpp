@@ -156,7 +156,7 @@ TEST_CASE("first guess: rubber in a bowl is found, whatever its exponent", "[fit
   Body body = cylinder;
   body.road = &bowl;
   for (const double b : {0.1, 0.15, 0.215, 0.25, 0.4}) {
-    Roll truth(body, Geometry::approximate, PowerLaw{1.87e-3, b}, 0.5, -0.3);
+    Roll truth(body, PowerLaw{1.87e-3, b}, 0.5, -0.3);
     Run run{};
     run.body = body;
     for (int i = 0; i < 100; ++i) {

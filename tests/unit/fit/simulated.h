@@ -74,7 +74,7 @@ inline rolling::LinearFilter shift() {
 inline rolling::Run shifts(const rolling::Body& body, std::vector<double> t,
                            std::vector<double> raw, std::size_t width, const char* source = "v") {
   rolling::Run run{};
-  run.shift_of = rolling::ShiftOf{body};
+  run.shift_of = body;
   if (source[0] == 'x') {
     run.filters.push_back(differentiate(rolling::Quantity::x, rolling::Quantity::v));
     raw = slope(t, raw);

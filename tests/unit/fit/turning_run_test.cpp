@@ -49,8 +49,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
       if (seeds == 1 && (index % 2 == 0) != (route == Route::position)) continue;
       for (unsigned seed = 1; seed <= seeds; ++seed) {
         simulated::Noise noise(seed);
-        Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, Geometry::approximate,
-                   PowerLaw{scene.a, scene.b}, 0.5);
+        Roll truth({1, scene.R, scene.K, 9.81, scene.slope}, PowerLaw{scene.a, scene.b}, 0.5);
         const double way = (seed + index / 2) % 2 ? 1 : -1;
         Run run{};
         run.body = {1, scene.R, scene.K};
@@ -78,7 +77,7 @@ TEST_CASE("turning run: both ways determine the slope, and a and b, towards fall
 }
 
 TEST_CASE("turning run: without a slope it is refused, and told what it needs", "[fit]") {
-  Roll truth({1, 0.0127, 0.4, 9.81, 0.02}, Geometry::approximate, PowerLaw{5e-5, 0.1}, 0.5);
+  Roll truth({1, 0.0127, 0.4, 9.81, 0.02}, PowerLaw{5e-5, 0.1}, 0.5);
   simulated::Noise noise(1);
   Run run{};
   run.body = {1, 0.0127, 0.4};
@@ -115,7 +114,7 @@ TEST_CASE("turning run: no fit with b held has a smaller sum of squares, at the 
         for (int i = 0; i < 2; ++i) {
           if (!all && (i == 0) != (route == Route::position)) continue;
           Body body{1, 0.04, 0.5, 9.81, slope};
-          Roll truth(body, Geometry::approximate, PowerLaw{5.75e-4, b}, 0.5);
+          Roll truth(body, PowerLaw{5.75e-4, b}, 0.5);
           const double way = i % 2 ? 1 : -1;
           Run run;
           run.body = body;
@@ -149,8 +148,8 @@ TEST_CASE("turning run: a rest of noisy speeds is no way back, a slow way back i
   Body up = mat;
   up.slope = 0.02;
   const PowerLaw rubber{1.87e-3, 0.215};
-  Roll rests(mat, Geometry::approximate, rubber, 0.5);
-  Roll returns(up, Geometry::approximate, rubber, 0.5);
+  Roll rests(mat, rubber, 0.5);
+  Roll returns(up, rubber, 0.5);
   simulated::Noise noise(4);
   for (const int n : {90, 600})
     for (int k = 0; k < 40; ++k) {

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 #include <array>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 const Body unit{1, 1, 0, 1};  // with A = 1, g/((K + 1) R) = 1: D is the deceleration
 
 Roll roll(std::size_t law, std::span<const double> c, double v0 = 1) {
-  return {unit, Geometry::approximate, Law(laws()[law], c), v0};
+  return {unit, Law(laws()[law], c), v0};
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ TEST_CASE("Roll: the derivatives in a wind are limits of differences", "[law]") 
           const auto at = [&](std::array<double, 6> q) {
             const Body body{1, 1, 0, 1, slope + q[4], 0, 0, 0, 0, wind + q[5]};
             const double moved[]{c[0] + q[1], c[1] + q[2], c[2] + q[3]};
-            return Roll(body, Geometry::approximate, Law(laws()[law], moved), 1 + q[0]).at(t);
+            return Roll(body, Law(laws()[law], moved), 1 + q[0]).at(t);
           };
           const std::size_t size = laws()[law].coefficients.size();
           const Roll::Point p = at({});
@@ -121,5 +122,5 @@ TEST_CASE("Roll: what cannot be is refused", "[law]") {
   const double good[]{0.1}, deep[]{2.0};
   for (double v0 : {-1.0, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_AS(roll(1, good, v0), Error);
-  CHECK_THROWS_AS(Roll(unit, Geometry::exact, Law(laws()[1], deep), 1), Error);
+  CHECK_THROWS_AS(Roll(exact_body(unit), Law(laws()[1], deep), 1), Error);
 }

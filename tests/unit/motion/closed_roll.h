@@ -10,7 +10,7 @@ namespace rolling {
 
 inline std::unique_ptr<Motion> closed_roll(const Body& body, PowerLaw law, double v0,
                                            double x0 = 0) {
-  return start({body, Geometry::approximate, law, {0}, v0, x0}, {Method::closed}, 0);
+  return start({body, law, {0}, v0, x0}, {Method::closed}, 0);
 }
 
 }  // namespace rolling

@@ -12,6 +12,7 @@
 #include "unit/motion/exact_form_reference.h"
 #include "unit/motion/random_scene.h"
 #include "unit/many.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -20,7 +21,7 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5}, shell{1.375, 0.04, 0.83};
 
 std::unique_ptr<Motion> exact_roll(const Body& body, PowerLaw law, double v0, double x0 = 0) {
-  return start({body, Geometry::exact, law, {0}, v0, x0}, {Method::exact}, 0);
+  return start({exact_body(body), law, {0}, v0, x0}, {Method::exact}, 0);
 }
 
 /// At T(1 - 1e-3), T(1 - 1e-6), T(1 - 1e-9) and at a random time.
@@ -79,7 +80,7 @@ TEST_CASE("Exact geometry: b < 0, where the roll ends as D reaches R", "[rolling
         scene.v0 / (scene.law(scene.v0) * scene.body.g / ((scene.body.K + 1) * scene.body.R));
     const double end =
         std::min(motion->stop_time(),
-                 Roll(scene.body, Geometry::exact, scene.law, scene.v0).radius_time(1e9 * unit));
+                 Roll(exact_body(scene.body), scene.law, scene.v0).radius_time(1e9 * unit));
     for (const double part : {0.1, 0.9, 1 - 1e-6, 1 - 1e-9}) {
       motion->seek(part * end);
       const auto error = reference.errors(part * end, motion->velocity(), motion->position());

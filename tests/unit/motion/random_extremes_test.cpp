@@ -30,7 +30,7 @@ class Extremes {
     const double R = one_in(5) ? power(-300, 300) : 0.04;
     roll.body = {1, R, one_in(4) ? 0 : between(0, 1), one_in(8) ? power(-300, 300) : 9.81};
     if (one_in(3)) roll.body.slope = std::copysign(power(-12, 1), between(-1, 1));
-    roll.geometry = one_in(2) ? Geometry::exact : Geometry::approximate;
+    roll.body.exact = one_in(2);
     roll.v0 = one_in(8) ? 0 : one_in(3) ? power(-300, 150) : power(-3, 1);
     law.b = one_in(6) ? std::copysign(power(-20, 308), between(-1, 1)) : between(-0.5, 3);
     const double depth = one_in(3) ? 1 - power(-16, -1) : power(-9, 0);
@@ -77,7 +77,7 @@ TEST_CASE("Extremes: random scenes end with finite numbers or one line, and neve
     INFO("i " << i << " R " << scene.body.R << " K " << scene.body.K << " g " << scene.body.g
               << " S " << scene.body.slope << " a " << law.a << " b " << law.b << " v0 " << scene.v0
               << " L " << scene.bulge.length << " table " << scene.law.has_points() << " exact "
-              << (scene.geometry == Geometry::exact));
+              << scene.body.exact);
     try {
       const Method method = extremes.method(scene);
       const auto motion = start(scene, method, 1e-6, 10'000);

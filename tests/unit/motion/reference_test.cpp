@@ -11,6 +11,7 @@
 
 #include "motion/roll.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -59,11 +60,11 @@ std::vector<Instant> instants() {
     for (std::string one; std::getline(cells, one, '\t');) cell.push_back(one);
     const auto at = [&](std::size_t i) { return number(cell.at(i)); };
     const Body body{1, at(3), at(2), at(4), at(5)};
-    const Geometry geometry = cell[1] == "1" ? Geometry::approximate : Geometry::exact;
+    const bool is_exact = cell[1] != "1";
     Instant instant{cell[0], line.substr(0, line.find('\t' + cell[10] + '\t')), at(10), {}, {}};
     for (std::size_t i = 0; i < instant.expected.size(); ++i) instant.expected[i] = at(11 + i);
-    instant.found =
-        values_of({body, geometry, law_of(cell[6], cell[7], cell[8]), at(9)}, instant.t);
+    instant.found = values_of(
+        {exact_body(body, is_exact), law_of(cell[6], cell[7], cell[8]), at(9)}, instant.t);
     all.push_back(std::move(instant));
   }
   return all;

@@ -5,6 +5,7 @@
 #include "contact/road.h"
 #include "motion/roll.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 #include <array>
 #include <cmath>
@@ -36,7 +37,6 @@ double bowl(double x) { return 0.57 * (1 - std::cos(x / 0.57)); }
 /// A road, a body on it, and a law.
 struct Case {
   Body body;
-  Geometry geometry = Geometry::approximate;
   Law law;
   double v0, x0;
   std::vector<double> times;
@@ -49,10 +49,10 @@ std::vector<Case> cases() {
   const Body car{.m = 1, .R = 0.3, .K = 0.04, .wind = 2, .road = road(-60, 2600, 5, hills)};
   const Body ball{.m = 1, .R = 0.0127, .K = 0.4, .road = road(-0.3, 0.3, 2e-3, bowl)};
   const Body cylinder{.m = 1, .R = 0.04, .K = 0.5, .road = road(-0.3, 0.3, 2e-3, bowl)};
-  return {{car, Geometry::approximate, Law(laws()[4], drag), 33, 1, {0, 10, 50, 100}},
-          {ball, Geometry::approximate, Law(laws()[1], constant), 0, 0.15, {0.1, 0.9, 2, 8.95}},
-          {ball, Geometry::exact, PowerLaw{5e-5, 0.2}, 0.1, -0.14, {0.05, 1.5, 4}},
-          {cylinder, Geometry::exact, PowerLaw{1.87e-3, 0.215}, 0.5, 0.01, {0.1, 0.3, 0.6, 1.2}}};
+  return {{car, Law(laws()[4], drag), 33, 1, {0, 10, 50, 100}},
+          {ball, Law(laws()[1], constant), 0, 0.15, {0.1, 0.9, 2, 8.95}},
+          {exact_body(ball), PowerLaw{5e-5, 0.2}, 0.1, -0.14, {0.05, 1.5, 4}},
+          {exact_body(cylinder), PowerLaw{1.87e-3, 0.215}, 0.5, 0.01, {0.1, 0.3, 0.6, 1.2}}};
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ TEST_CASE("road: the derivatives of a roll are limits of differences", "[road]")
           double& value = number < size ? c[number] : *values[number - size];
           value += by;
           const Law law(one.law.form(), c);
-          RoadRoll roll(moved.body, one.geometry, law, moved.v0, moved.x0);
+          RoadRoll roll(moved.body, law, moved.v0, moved.x0);
           Roll::Point p = roll.at(t);
           p.x += moved.x0;
           return p;
@@ -117,14 +117,14 @@ TEST_CASE("road: the derivatives of a roll are limits of differences", "[road]")
 
 // A line of heights is a slope, up, at the turn and back; so are its derivatives.
 TEST_CASE("road: a straight road is a slope", "[road]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double slope : {0.02, -1e-4, 0.1}) {
       Body body{.m = 1, .R = 0.0127, .K = 0.4, .slope = slope};
-      Roll right(body, geometry, PowerLaw{5e-5, 0.1}, 0.5);
+      Roll right(exact_body(body, is_exact), PowerLaw{5e-5, 0.1}, 0.5);
       body.slope = 0;
       const double sine = slope / std::hypot(1, slope);
       body.road = road(-20, 20, 0.37, [=](double x) { return sine * x; });
-      Roll roll(body, geometry, PowerLaw{5e-5, 0.1}, 0.5, 0.3);
+      Roll roll(exact_body(body, is_exact), PowerLaw{5e-5, 0.1}, 0.5, 0.3);
       for (const double t : {0.0, 0.3, 1.0, 3.0, 5.0, 7.0}) {
         CAPTURE(slope, t);
         const Roll::Point p = roll.at(t);
@@ -148,7 +148,7 @@ TEST_CASE("road: a straight road is a slope", "[road]") {
 TEST_CASE("road: without a loss the energy stays", "[road]") {
   const double none[]{0};
   Body ball{.m = 1, .R = 0.0127, .K = 0.4, .road = road(-0.3, 0.3, 2e-3, bowl), .steepness = 1.1};
-  RoadRoll roll(ball, Geometry::approximate, Law(laws()[1], none), 0, 0.2);
+  RoadRoll roll(ball, Law(laws()[1], none), 0, 0.2);
   for (double t = 0; t < 20; t += 0.37) {
     const Roll::Point p = roll.at(t);
     const double fall = 1.1 * (ball.road->at(0.2).h - ball.road->at(0.2 + p.x).h);
@@ -173,7 +173,7 @@ TEST_CASE("road: a body swings in rough bowls", "[road]") {
     const Road rough(x, h);
     const Body ball{.m = 1, .R = 0.0127, .K = 0.4, .road = &rough};
     const double x0 = uniform(-0.1, 0.1);
-    RoadRoll roll(ball, Geometry::approximate, PowerLaw{5e-5, 0.2}, 0.1, x0);
+    RoadRoll roll(ball, PowerLaw{5e-5, 0.2}, 0.1, x0);
     CAPTURE(i);
     double before = INFINITY;
     for (const double t : {0.0, 2.0, 4.0}) {
@@ -189,13 +189,13 @@ TEST_CASE("road: a body swings in rough bowls", "[road]") {
 TEST_CASE("road: a body leaves the table or the track, begins outside, or is held", "[road]") {
   const Law law(laws()[1], constant);
   Body ball{.m = 1, .R = 0.0127, .K = 0.4, .road = road(-0.3, 0.3, 2e-3, bowl)};
-  CHECK_THROWS_AS(RoadRoll(ball, Geometry::approximate, law, 0, 0.31), Error);
-  RoadRoll out(ball, Geometry::approximate, law, 2, 0);
+  CHECK_THROWS_AS(RoadRoll(ball, law, 0, 0.31), Error);
+  RoadRoll out(ball, law, 2, 0);
   CHECK(out.at(0.1).v > 0);
   CHECK_THROWS_AS(out.at(1), Error);
-  RoadRoll held(ball, Geometry::approximate, law, 0, 1e-4);
+  RoadRoll held(ball, law, 0, 1e-4);
   CHECK((held.at(5).v == 0 && held.at(5).x == 0 && held.stop_time() == 0 && !held.turns()));
   ball.road = road(-0.3, 0.3, 2e-3, [](double x) { return -bowl(x); });
-  RoadRoll flies(ball, Geometry::approximate, law, 2.4, 0);
+  RoadRoll flies(ball, law, 2.4, 0);
   CHECK_THROWS_WITH(flies.at(0.1), Catch::Matchers::StartsWith("the body leaves the track"));
 }

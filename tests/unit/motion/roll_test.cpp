@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -26,8 +27,7 @@ const Reference references[] = {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 Roll roll(const Reference& r) {
-  return {
-      {1, 0.04, r.K}, r.exact ? Geometry::exact : Geometry::approximate, PowerLaw{r.a, r.b}, r.v0};
+  return {exact_body({1, 0.04, r.K}, r.exact), PowerLaw{r.a, r.b}, r.v0};
 }
 
 /// The time in which a body would lose its speed at the deceleration of v0.
@@ -66,11 +66,11 @@ TEST_CASE("Roll: speed, distance and derivatives against quadrature with 40 digi
 
 TEST_CASE("Roll: after the stop the speed is 0, and the place is where the derivatives lead",
           "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double b : {-0.01, 0.0, 0.215, 0.9}) {
       const Body body{1, 0.04, 0.5};
       const PowerLaw law{8e-3, b};
-      Roll trajectory(body, geometry, law, 0.7);
+      Roll trajectory(exact_body(body, is_exact), law, 0.7);
       const double T = trajectory.stop_time();
       for (const double t : {T, std::nextafter(T, 1e9), 2 * T, 1e300}) {
         const auto s = trajectory.at(t);
@@ -82,7 +82,7 @@ TEST_CASE("Roll: after the stop the speed is 0, and the place is where the deriv
       CHECK(std::abs(rolling.x / stopped.x - 1) < 1e-12);
       const double h = 1e-6;
       const auto x = [&](double a, double bb, double v0) {
-        return Roll(body, geometry, PowerLaw{a, bb}, v0).at(1e9).x;
+        return Roll(exact_body(body, is_exact), PowerLaw{a, bb}, v0).at(1e9).x;
       };
       const double x_a =
           (x(law.a * (1 + h), b, 0.7) - x(law.a * (1 - h), b, 0.7)) / (2 * h * law.a);
@@ -101,7 +101,7 @@ TEST_CASE("Roll: at the last speed of a falling mat the derivatives are those of
   const auto at = [&](double by_a, double by_b, double by_slope, double by_v0, double t) {
     Body body{1, 0.04, 0.5};
     body.slope = slope + by_slope;
-    return Roll(body, Geometry::approximate, PowerLaw{a + by_a, b + by_b}, 0.5 + by_v0).at(t);
+    return Roll(body, PowerLaw{a + by_a, b + by_b}, 0.5 + by_v0).at(t);
   };
   for (const double t : {10., 1e3, 1e5}) {
     const auto s = at(0, 0, 0, 0, t);
@@ -124,7 +124,7 @@ TEST_CASE("Roll: D = a v on a falling mat, with its derivatives, is the closed f
   body.slope = S;
   const double u = -body.R * S / a, k = body.g / std::sqrt(1 + S * S) * a / body.R / (body.K + 1);
   for (const double v0 : {1.5, 0.1, u, u * (1 + 1e-9), u * (1 - 1e-12)}) {
-    Roll roll(body, Geometry::approximate, PowerLaw{a, 1}, v0);
+    Roll roll(body, PowerLaw{a, 1}, v0);
     CHECK(std::abs(roll.last_speed() / u - 1) < 1e-14);
     for (double kt = 0.1; kt < 1e6; kt *= 1.2) {
       const double t = kt / k, fade = std::exp(-kt), once = -std::expm1(-kt) / k, w = v0 - u;
@@ -151,7 +151,7 @@ TEST_CASE("Roll: D = a sqrt v on a falling mat, with its derivatives, is the clo
   body.slope = S;
   const double s = -body.R * S / a, k = body.g / std::sqrt(1 + S * S) * a / body.R / (body.K + 1);
   for (const double w0 : {1.5 * s, 0.7 * s, s * (1 + 1e-9)}) {
-    Roll roll(body, Geometry::approximate, PowerLaw{a, 0.5}, w0 * w0);
+    Roll roll(body, PowerLaw{a, 0.5}, w0 * w0);
     for (double L = -0.1; L > -60; L -= 0.37) {
       const double d = (w0 - s) * std::exp(L), w = s + d, kt = -2 * (d - (w0 - s) + s * L),
                    v_a = (-kt * d + 2 * s * (d * L - s + d * s / (w0 - s))) / a;
@@ -165,9 +165,9 @@ TEST_CASE("Roll: D = a sqrt v on a falling mat, with its derivatives, is the clo
 }
 
 TEST_CASE("Roll: at t = 0 it is where it starts", "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double a : {1e-3, 0.04}) {
-      const auto s = Roll({1, 0.04, 0.5}, geometry, PowerLaw{a, 0.3}, 1).at(0);
+      const auto s = Roll(exact_body({1, 0.04, 0.5}, is_exact), PowerLaw{a, 0.3}, 1).at(0);
       CHECK((s.v == 1 && s.x == 0 && s.v_v0 == 1));
       CHECK((s.v_c[0] == 0 && s.v_c[1] == 0 && s.x_c[0] == 0 && s.x_c[1] == 0 && s.x_v0 == 0));
     }
@@ -182,9 +182,9 @@ TEST_CASE("Roll: finite and monotone on random laws, up to D = R and down to res
     const double b = i % 7 == 0 ? 1 + between(-1e-15, 1e-15) : between(-0.5, 3),
                  v0 = std::pow(10, between(-6, 3)), K = between(0, 1);
     const double depth = i % 3 ? std::pow(10, between(-9, 0)) : 1;
-    const Geometry geometry = i % 2 ? Geometry::exact : Geometry::approximate;
+    const bool is_exact = i % 2 == 1;
     const PowerLaw law{0.04 * depth * std::pow(v0, -b) * (1 - 1e-12), b};
-    Roll trajectory({1, 0.04, K}, geometry, law, v0);
+    Roll trajectory(exact_body({1, 0.04, K}, is_exact), law, v0);
     double v = v0 * (1 + 1e-12), x = -1;
     const double unit = v0 * 0.04 / (9.81 * law(v0));
     for (double t = 1e-12 * unit; t < 1e9 * unit; t *= 3) {
@@ -201,21 +201,21 @@ TEST_CASE("Roll: finite and monotone on random laws, up to D = R and down to res
 }
 
 TEST_CASE("Roll: speeds beyond all use", "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double v0 : {1e-300, 1e-150, 1e-30, 1e30, 1e150})
       for (const double b : {-0.5, 0.215, 1 - 1e-15, 1.0, 1.5, 3.0}) {
         const double a = std::pow(v0, -b) * 1e-3;
         if (a < 1e-300 || a > 1e300) continue;
         INFO("v0 " << v0 << " b " << b);
-        Roll trajectory({1, 0.04, 0.5}, geometry, PowerLaw{a, b}, v0),
-            unit({1, 0.04, 0.5}, geometry, PowerLaw{1e-3, b}, 1);
+        Roll trajectory(exact_body({1, 0.04, 0.5}, is_exact), PowerLaw{a, b}, v0),
+            unit(exact_body({1, 0.04, 0.5}, is_exact), PowerLaw{1e-3, b}, 1);
         // The law has no scale: v/v0 depends on t/v0 alone.
         const auto s = trajectory.at(2 * v0), u = unit.at(2);
         CHECK(std::abs(s.v / v0 - u.v) <= 1e-12);
         if (v0 > 1e-300) CHECK(std::abs(s.x / v0 / v0 - u.x) <= 1e-12 * u.x);
         CHECK(std::abs(s.v_v0 - (u.v_v0)) <= 1e-12);
       }
-  const auto frozen = Roll({1, 0.04, 0.5}, Geometry::approximate, PowerLaw{1e-3, 3}, 1e-300).at(5);
+  const auto frozen = Roll({1, 0.04, 0.5}, PowerLaw{1e-3, 3}, 1e-300).at(5);
   CHECK((frozen.v == 1e-300 && frozen.x == 5e-300 && frozen.v_v0 == 1 && frozen.x_v0 == 5));
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadratur
 #include "unit/motion/radius_reference.inc"
   };
   for (const auto& r : rolls) {
-    Roll roll({1, 0.04, r.K, 9.81, r.S}, Geometry::exact, PowerLaw{r.a, r.b}, r.v0);
+    Roll roll(exact_body({1, 0.04, r.K, 9.81, r.S}), PowerLaw{r.a, r.b}, r.v0);
     CAPTURE(r.K, r.b, r.S, r.t);
     const auto p = roll.at(r.t);
     const double error = 20 * eps;
@@ -251,7 +251,7 @@ TEST_CASE("Roll: where D stays R, the roll and its derivatives against quadratur
 
 TEST_CASE("Roll: the place of rest is a continuous function of b, through b = 0", "[rolling]") {
   const auto rest = [](double b) {
-    return Roll({1, 0.04, 0.5}, Geometry::exact, PowerLaw{2e-3, b}, 0.5).at(10);
+    return Roll(exact_body({1, 0.04, 0.5}), PowerLaw{2e-3, b}, 0.5).at(10);
   };
   // A step further is where the derivatives at both ends of the step lead (trapezoid rule).
   for (double b = -0.6; b < 0.1; b += 1e-3) {
@@ -269,9 +269,9 @@ TEST_CASE("Roll: with A = 1 a roll that stays passes the radius, on a slope too"
     for (const double b : {-0.2, 0.0, 0.215, 1.5}) {
       const PowerLaw law{1.6 * R, b};  // at 2 m/s D is 1.4 R to 4.5 R
       const double g = n * 9.81 * std::hypot(1, S / n) / std::hypot(1, S);
-      const auto geometry = Geometry::approximate;
-      Roll roll({1, R, 0.5, 9.81, S}, geometry, law, 2),
-          wide({1, n * R, 0.5, g, S / n}, geometry, law, 2);
+      const auto is_exact = false;
+      Roll roll(exact_body({1, R, 0.5, 9.81, S}, is_exact), law, 2),
+          wide(exact_body({1, n * R, 0.5, g, S / n}, is_exact), law, 2);
       CAPTURE(S, b);
       for (const double t : {0.05, 0.1, 0.2}) {
         const auto p = roll.at(t), q = wide.at(t);
@@ -280,7 +280,7 @@ TEST_CASE("Roll: with A = 1 a roll that stays passes the radius, on a slope too"
         CHECK(p.v_c[0] == Approx(q.v_c[0]).epsilon(1e-10).margin(1e-12));
         CHECK(p.x_c[1] == Approx(q.x_c[1]).epsilon(1e-11));
       }
-      CHECK_THROWS_AS(Roll({1, R, 0.5, 9.81, S}, Geometry::exact, law, 2), Error);
+      CHECK_THROWS_AS(Roll(exact_body({1, R, 0.5, 9.81, S}), law, 2), Error);
     }
 }
 
@@ -291,8 +291,8 @@ TEST_CASE("Roll: refusals", "[rolling]") {
   const auto refused = [&](Body c, PowerLaw l, double v0) {
     CHECK_THROWS_AS(check_roll(c, l, v0), Error);
     if (l.a == law.a && l.b == law.b)
-      for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
-        CHECK_THROWS_AS(Roll(c, geometry, l, v0), Error);
+      for (const bool is_exact : {false, true})
+        CHECK_THROWS_AS(Roll(exact_body(c, is_exact), l, v0), Error);
   };
   for (const double bad : {nan, infinite, -infinite, -1.0}) {
     refused({1, bad, 0.5}, law, 0.5);
@@ -307,7 +307,7 @@ TEST_CASE("Roll: refusals", "[rolling]") {
   refused({1, 0.04, 0.5, 0}, law, 0.5);
   refused(body, {0, 0.2}, 0.5);
   refused(body, {0.041, 0.2}, 1);
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
-    CHECK_NOTHROW(Roll(body, geometry, PowerLaw{0.04, 0.2}, 1));
-  CHECK_THROWS_AS(Roll({1, 0.04, 0}, Geometry::exact, PowerLaw{0.04, 0.2}, 1), Error);
+  for (const bool is_exact : {false, true})
+    CHECK_NOTHROW(Roll(exact_body(body, is_exact), PowerLaw{0.04, 0.2}, 1));
+  CHECK_THROWS_AS(Roll(exact_body({1, 0.04, 0}), PowerLaw{0.04, 0.2}, 1), Error);
 }

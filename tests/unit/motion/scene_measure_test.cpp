@@ -13,8 +13,8 @@ namespace {
 
 Scene scene(double b, double length = 0) {
   Scene roll{};
-  roll.body = {1.375, 0.04, 0.5}, roll.geometry = Geometry::approximate,
-  roll.law = PowerLaw{1.87e-3, b}, roll.v0 = 0.5, roll.bulge.length = length;
+  roll.body = {1.375, 0.04, 0.5}, roll.law = PowerLaw{1.87e-3, b}, roll.v0 = 0.5,
+  roll.bulge.length = length;
   return roll;
 }
 

@@ -15,7 +15,7 @@ TEST_CASE("Scene: the best method, and methods that do not fit the scene", "[rol
   CHECK(best_method(roll).kind == Method::closed);
   CHECK(start(roll, {Method::closed}, 1e-8)->roll() != nullptr);
   CHECK(start(roll, {Method::solver}, 1e-8)->roll() == nullptr);
-  roll.geometry = Geometry::exact;
+  roll.body.exact = true;
   CHECK(best_method(roll).kind == Method::exact);
   CHECK_THROWS_AS(start(roll, {Method::closed}, 1e-8), Error);
   roll.bulge.length = 1e-3;

@@ -11,6 +11,7 @@
 #include "motion/roll.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -27,7 +28,7 @@ const SlopeReference references[] = {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr auto paper = Geometry::approximate, exact = Geometry::exact;
+constexpr bool paper = false, exact = true;
 
 double deceleration(const SlopeReference& r, double v) {
   const double d = r.a * std::pow(v, r.b) / 0.04, A = r.exact ? std::sqrt(1 - d * d) : 1;
@@ -38,7 +39,7 @@ double deceleration(const SlopeReference& r, double v) {
 
 TEST_CASE("Slope: speed, distance and derivatives against quadrature with 34 digits", "[rolling]") {
   for (const SlopeReference& r : references) {
-    Roll roll({1, 0.04, r.K, 9.81, r.S}, r.exact ? exact : paper, PowerLaw{r.a, r.b}, r.v0);
+    Roll roll(exact_body({1, 0.04, r.K, 9.81, r.S}, r.exact), PowerLaw{r.a, r.b}, r.v0);
     const auto s = roll.at(r.t);
     INFO("exact " << r.exact << " K " << r.K << " a " << r.a << " b " << r.b << " v0 " << r.v0
                   << " S " << r.S << " t " << r.t);
@@ -78,23 +79,24 @@ TEST_CASE("Slope: the checked stops and ways of the paper's scenes", "[rolling]"
   };
   for (const Checked& c : checked) {
     const Body body{1, 0.04, 0.5, 9.81, c.S};
-    Roll roll(body, paper, PowerLaw{c.a, c.b}, 0.5);
+    Roll roll(body, PowerLaw{c.a, c.b}, 0.5);
     CHECK(std::abs(roll.stop_time() / c.paper - 1) < 1e-14);
     CHECK(std::abs(roll.at(roll.stop_time()).x / c.way - 1) < 1e-14);
-    CHECK(std::abs(Roll(body, exact, PowerLaw{c.a, c.b}, 0.5).stop_time() / c.exact - 1) < 1e-14);
+    CHECK(std::abs(Roll(exact_body(body, exact), PowerLaw{c.a, c.b}, 0.5).stop_time() / c.exact -
+                   1) < 1e-14);
   }
 }
 
 TEST_CASE("Slope: a slope that vanishes leads to the level mat", "[rolling]") {
-  for (const Geometry geometry : {paper, exact})
+  for (const bool is_exact : {false, true})
     for (const double b : {-0.3, 0.0, 0.215, 0.6})
       for (const double depth : {0.04, 0.6, 1.0})
         for (const double S : {0.0, 1e-300, -1e-300, 1e-27, -1e-27}) {
-          if (geometry == exact && b < 0 && depth == 1) continue;  // ends at once
+          if (is_exact && b < 0 && depth == 1) continue;  // ends at once
           const PowerLaw law{0.04 * depth * std::pow(0.5, -b) * (1 - 1e-12), b};
-          Roll level({1, 0.04, 0.5}, geometry, law, 0.5),
-              roll({1, 0.04, 0.5, 9.81, S}, geometry, law, 0.5);
-          INFO("exact " << (geometry == exact) << " b " << b << " depth " << depth << " S " << S);
+          Roll level(exact_body({1, 0.04, 0.5}, is_exact), law, 0.5),
+              roll(exact_body({1, 0.04, 0.5, 9.81, S}, is_exact), law, 0.5);
+          INFO("exact " << is_exact << " b " << b << " depth " << depth << " S " << S);
           const double stop = level.stop_time(), end = std::isinf(stop) ? 0.01 / depth : stop;
           if (!std::isinf(stop)) CHECK(std::abs(roll.stop_time() / stop - 1) < 1e-14);
           const auto half = level.at(0.5 * end);  // sums over the way begin with its rounding
@@ -116,7 +118,8 @@ TEST_CASE("Slope: a slope that vanishes leads to the level mat", "[rolling]") {
             // By the slope: against a difference of the second order.
             const double h = 1e-6;
             const auto at = [&](double slope) {
-              return Roll({1, 0.04, 0.5, 9.81, slope}, geometry, law, 0.5).at(part * end);
+              return Roll(exact_body({1, 0.04, 0.5, 9.81, slope}, is_exact), law, 0.5)
+                  .at(part * end);
             };
             if (part < 1) {
               const auto up = at(h), down = at(-h);
@@ -144,15 +147,15 @@ TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for
     const double depth = i % 3 ? std::pow(10, between(-9, 0)) : 1;
     const double S = i % 5 == 0 ? -depth * (1 + between(-1e-15, 1e-15))
                                 : std::copysign(std::pow(10, between(-12, 0.5)), between(-1, 1));
-    const Geometry geometry = i % 2 ? exact : paper;
+    const bool is_exact = i % 2 == 1;
     const Body body{1, 0.04, K, 9.81, S};
     const PowerLaw law{0.04 * depth * std::pow(v0, -b) * (1 - 1e-12), b};
     INFO("i " << i << " b " << b << " K " << K << " depth " << depth << " S " << S << " exact "
-              << (geometry == exact) << " v0 " << v0);
-    Roll roll(body, geometry, law, v0);
+              << is_exact << " v0 " << v0);
+    Roll roll(exact_body(body, is_exact), law, v0);
     const double unit = v0 * 0.04 / (9.81 * law(v0));
     REQUIRE(roll.stop_time() >= 0);
-    if (S > 0 && !(geometry == exact && b < 0)) REQUIRE(std::isfinite(roll.stop_time()));
+    if (S > 0 && !(is_exact && b < 0)) REQUIRE(std::isfinite(roll.stop_time()));
     double v = v0, x = -1;
     int way = 0;
     for (double t = 1e-12 * unit; t < 1e6 * unit; t *= 3) {
@@ -161,7 +164,7 @@ TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for
       try {
         s = roll.at(t);
       } catch (const Error&) {
-        REQUIRE((std::isinf(roll.last_speed()) || (geometry == exact && b < 0)));
+        REQUIRE((std::isinf(roll.last_speed()) || (is_exact && b < 0)));
         break;
       }
       const double change = s.v - v;
@@ -182,8 +185,8 @@ TEST_CASE("Slope: random rolls are finite and monotone, uphill, downhill and for
 }
 
 TEST_CASE("Slope: what never stops, what counts as rest, and rest itself", "[rolling]") {
-  const auto roll = [](double S, double a, double b, double v0, Geometry geometry = paper) {
-    return Roll({1, 0.04, 0.5, 9.81, S}, geometry, PowerLaw{a, b}, v0);
+  const auto roll = [](double S, double a, double b, double v0, bool is_exact = false) {
+    return Roll(exact_body({1, 0.04, 0.5, 9.81, S}, is_exact), PowerLaw{a, b}, v0);
   };
   const double balance = std::pow(0.04 * 0.005 / 1.87e-3, 1 / 0.215);
   auto slow = roll(-5e-3, 1.87e-3, 0.215, 0.5);
@@ -220,12 +223,12 @@ TEST_CASE("Slope: where the law balances it, a solver stops when the integral ov
 }
 
 TEST_CASE("Slope: solvers, tables and the integral over speed agree", "[rolling]") {
-  for (const Geometry geometry : {paper, exact})
+  for (const bool is_exact : {false, true})
     for (const double S : {1e-3, -1e-3, 0.02, -5e-3, -0.1}) {
       Scene roll{};
-      roll.body = {1, 0.04, 0.5, 9.81, S}, roll.geometry = geometry;
+      roll.body = {1, 0.04, 0.5, 9.81, S}, roll.body.exact = is_exact;
       roll.law = PowerLaw{1.87e-3, 0.215}, roll.v0 = 0.5, roll.x0 = 0.1;
-      INFO("S " << S << " exact " << (geometry == exact));
+      INFO("S " << S << " exact " << is_exact);
       const auto best = start(roll, best_method(roll), 0),
                  solver = start(roll, {Method::solver, gsl_odeiv2_step_rk8pd}, 1e-12);
       CHECK(best_method(roll).kind == Method::exact);
@@ -269,7 +272,7 @@ TEST_CASE("Slope: solvers, tables and the integral over speed agree", "[rolling]
 // quadrature in mpmath with 50 digits.
 TEST_CASE("Slope: a law whose shift at v0 is near the least double or below it", "[rolling]") {
   struct Checked {
-    Geometry geometry;
+    bool is_exact;
     double b, v0, S, v, t, x;
   };
   for (const Checked& c :
@@ -284,7 +287,7 @@ TEST_CASE("Slope: a law whose shift at v0 is near the least double or below it",
         {exact, -100, 1000, 0.1, 1.1, 1534.98788316695821, 768338.185073920911},
         {exact, -100, 4000, 0.1, 0.98, 6145.19079696202719, 12293425.0822578213}}) {
     INFO("b " << c.b << " v0 " << c.v0);
-    Roll roll({1, 0.04, 0.5, 9.81, c.S}, c.geometry, PowerLaw{1e-3, c.b}, c.v0);
+    Roll roll(exact_body({1, 0.04, 0.5, 9.81, c.S}, c.is_exact), PowerLaw{1e-3, c.b}, c.v0);
     const auto p = roll.at(c.t);
     // The time has a relative error of a few eps, and |dv/dt| is below 2 m/s^2.
     CHECK(std::abs(p.v - c.v) < 2e-12 * c.v + 16 * eps * c.t);
@@ -296,7 +299,7 @@ TEST_CASE("Slope: a law whose shift at v0 is near the least double or below it",
 TEST_CASE("Slope: down a wall, whatever the law", "[rolling]") {
   for (const double b : {-300.0, -3.0, 0.0, 0.2, 1.0})
     for (const double S : {-1e100, -1e150, -1e200, -1e300}) {
-      Roll roll({1, 0.04, 0.5, 9.81, S}, paper, PowerLaw{1e-3, b}, 2);
+      Roll roll({1, 0.04, 0.5, 9.81, S}, PowerLaw{1e-3, b}, 2);
       for (const double t : {1e-3, 0.3, 2.0, 50.0}) {
         INFO("b " << b << " S " << S << " t " << t);
         CHECK(std::abs(roll.at(t).v / (2 + 6.54 * t) - 1) < 20 * eps);

@@ -9,6 +9,7 @@
 #include "motion/scene.h"
 #include "contact/ledger.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -17,9 +18,9 @@ namespace {
 const Body cylinder{1.375, 0.04, 0.5};
 const PowerLaw rubber{1.87e-3, 0.215};
 
-Scene scene(Bulge bulge, Geometry geometry = Geometry::approximate, PowerLaw law = rubber,
-            double v0 = 0.5, double x0 = 0) {
-  return {cylinder, geometry, law, bulge, v0, x0};
+Scene scene(Bulge bulge, const Body& body = cylinder, PowerLaw law = rubber, double v0 = 0.5,
+            double x0 = 0) {
+  return {body, law, bulge, v0, x0};
 }
 
 MemoryRoll roll(const Scene& of, Stepper stepper, double rtol = 1e-10,
@@ -27,9 +28,9 @@ MemoryRoll roll(const Scene& of, Stepper stepper, double rtol = 1e-10,
   return {of, stepper, rtol, most_steps};
 }
 
-MemoryRoll roll(Bulge bulge, Geometry geometry = Geometry::approximate, PowerLaw law = rubber,
-                double v0 = 0.5, double x0 = 0) {
-  const Scene of = scene(bulge, geometry, law, v0, x0);
+MemoryRoll roll(Bulge bulge, const Body& body = cylinder, PowerLaw law = rubber, double v0 = 0.5,
+                double x0 = 0) {
+  const Scene of = scene(bulge, body, law, v0, x0);
   return roll(of, memory_stepper(of));
 }
 
@@ -71,8 +72,8 @@ TEST_CASE("MemoryRoll: the roll backwards before the rest", "[rolling]") {
 }
 
 TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0", "[rolling]") {
-  const auto difference = [](Geometry geometry, Motion& law, double length) {
-    MemoryRoll motion = roll({length}, geometry, {0.01, 0.215});
+  const auto difference = [](const Body& body, Motion& law, double length) {
+    MemoryRoll motion = roll({length}, body, {0.01, 0.215});
     motion.seek(0.3);
     law.seek(0.3);
     return motion.velocity() - law.velocity();
@@ -80,10 +81,10 @@ TEST_CASE("MemoryRoll: tends to the law without memory as the length goes to 0",
   const auto closed_owned = closed_roll(cylinder, {0.01, 0.215}, 0.5, 0);
   Motion& closed = *closed_owned;
   const auto exact =
-      start({cylinder, Geometry::exact, PowerLaw{0.01, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
-  for (const auto& [geometry, law] : {std::pair<Geometry, Motion*>{Geometry::approximate, &closed},
-                                      {Geometry::exact, exact.get()}}) {
-    const double coarse = difference(geometry, *law, 4e-4), fine = difference(geometry, *law, 1e-4);
+      start({exact_body(cylinder), PowerLaw{0.01, 0.215}, {0}, 0.5, 0}, {Method::exact}, 0);
+  for (const auto& [body, law] :
+       {std::pair<Body, Motion*>{cylinder, &closed}, {exact_body(cylinder), exact.get()}}) {
+    const double coarse = difference(body, *law, 4e-4), fine = difference(body, *law, 1e-4);
     CHECK(std::abs(fine) < 2e-4);
     CHECK(std::abs(coarse / fine - 4) < 0.15);  // first order in the length
   }
@@ -103,14 +104,14 @@ TEST_CASE("MemoryRoll: every stepper that is fit for it finds the same rest", "[
 }
 
 TEST_CASE("MemoryRoll: the rest does not depend on the units of length and time", "[rolling]") {
-  const double stop = roll({1e-3}, Geometry::exact).stop_time();
+  const double stop = roll({1e-3}, exact_body(cylinder)).stop_time();
   for (const double m : {1e-20, 1e-9, 1e-3, 1.0, 1e9})
     for (const double s : {1e-20, 1e-9, 1.0, 1e9}) {
       const Body body{1, 0.04 * m, 0.5, 9.81 * m / (s * s)};
       const PowerLaw law{1.87e-3 * m * std::pow(s / m, 0.215), 0.215};
       for (const Stepper stepper :
            {gsl_odeiv2_step_rk8pd, gsl_odeiv2_step_rk4imp, gsl_odeiv2_step_msbdf}) {
-        MemoryRoll motion = roll({body, Geometry::exact, law, {1e-3 * m}, 0.5 * m / s, 0}, stepper);
+        MemoryRoll motion = roll({exact_body(body), law, {1e-3 * m}, 0.5 * m / s, 0}, stepper);
         INFO("metre " << m << " second " << s << " stepper " << stepper->name);
         CHECK(std::abs(motion.stop_time() / (s * stop) - 1) < 1e-6);
       }
@@ -123,8 +124,7 @@ TEST_CASE("MemoryRoll: a shift that vanishes at v0", "[rolling]") {
     for (const double b : {50.0, 110.0, 1000.0}) {
       const auto speed = [&](Stepper stepper) {
         const Body body{1, 0.04, 0.5, 9.81, slope};
-        MemoryRoll motion =
-            roll({body, Geometry::approximate, PowerLaw{1e-3, b}, {1e-2}, 1e-3, 0}, stepper);
+        MemoryRoll motion = roll({body, PowerLaw{1e-3, b}, {1e-2}, 1e-3, 0}, stepper);
         motion.seek(3);
         return motion.velocity();
       };
@@ -141,7 +141,7 @@ TEST_CASE("MemoryRoll: under a constant shift too", "[rolling]") {
   for (const double damping : {1e-4, 1e-3, 3e-3}) {
     const auto stop = [&](Stepper stepper) {
       const Bulge bulge{1e-4, damping};
-      return roll(scene(bulge, Geometry::approximate, {1.87e-3, 0}), stepper).stop_time();
+      return roll(scene(bulge, cylinder, {1.87e-3, 0}), stepper).stop_time();
     };
     const double by_rkf45 = stop(gsl_odeiv2_step_rkf45);
     CHECK(std::abs(stop(gsl_odeiv2_step_rk8pd) - by_rkf45) < 1e-8);
@@ -156,8 +156,7 @@ TEST_CASE("MemoryRoll: every stepper finds the same rest of a bulge that creeps 
   for (const double b : {0.0, 0.1, 0.215})
     for (const double damping : {0.05, 0.1, 0.13, 0.5, 5.0}) {
       const auto stop = [&](Stepper stepper) {
-        return roll(scene({1e-3, damping}, Geometry::approximate, {1.87e-3, b}), stepper)
-            .stop_time();
+        return roll(scene({1e-3, damping}, cylinder, {1.87e-3, b}), stepper).stop_time();
       };
       const double by_rk8pd = stop(gsl_odeiv2_step_rk8pd);
       INFO("b " << b << " damping " << damping);
@@ -219,13 +218,13 @@ TEST_CASE("MemoryRoll: down to any length the default needs few evaluations and 
 }
 
 TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-    MemoryRoll motion = roll({1e-3}, geometry);
+  for (const bool is_exact : {false, true}) {
+    MemoryRoll motion = roll({1e-3}, exact_body(cylinder, is_exact));
     const double stop = motion.stop_time();
     CHECK(stop > 2.5);
     // No later speed beyond v0/1000 if the integration went on: a law that is at rest later, at a
     // lower speed, shows it.
-    MemoryRoll longer = roll({1e-3}, geometry);
+    MemoryRoll longer = roll({1e-3}, exact_body(cylinder, is_exact));
     double fastest = 0;
     for (int i = 0; i < 200; ++i) {
       longer.seek(stop * (0.9 + i * 1e-3));
@@ -241,13 +240,13 @@ TEST_CASE("MemoryRoll: rest is rest, and comes sooner with damping", "[rolling]"
       CHECK((motion.velocity() == 0 && motion.shift() == 0 && motion.acceleration() == 0));
       CHECK(std::abs(motion.position() - x) < 1e-12);
     }
-    CHECK(roll({1e-3, 0.02}, geometry).stop_time() < 0.7 * stop);
+    CHECK(roll({1e-3, 0.02}, exact_body(cylinder, is_exact)).stop_time() < 0.7 * stop);
   }
 }
 
 TEST_CASE("MemoryRoll: shift and acceleration are those of the moving bulge", "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-    MemoryRoll motion = roll({5e-3, 5e-3}, geometry, {0.02, 0.215});
+  for (const bool is_exact : {false, true}) {
+    MemoryRoll motion = roll({5e-3, 5e-3}, exact_body(cylinder, is_exact), {0.02, 0.215});
     for (const double t : {0.01, 0.1, 0.2, 0.35, 0.5}) {
       const double h = 1e-4;
       motion.seek(t - h);
@@ -256,7 +255,7 @@ TEST_CASE("MemoryRoll: shift and acceleration are those of the moving bulge", "[
       const double a = motion.acceleration(), D = motion.shift();
       motion.seek(t + h);
       CHECK(std::abs((motion.velocity() - before) / (2 * h) - a) < 1e-5 * (1 + std::abs(a)));
-      const double A = geometry == Geometry::exact ? std::sqrt(1 - D * D / 0.0016) : 1;
+      const double A = is_exact ? std::sqrt(1 - D * D / 0.0016) : 1;
       CHECK(std::abs(a + 9.81 * D / ((0.5 + A) * 0.04)) < 1e-12);
     }
   }
@@ -278,13 +277,14 @@ TEST_CASE(
     "MemoryRoll: the outflow is the energy of the start (Eq. 23), the gift of the roll backwards "
     "included",
     "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
-    MemoryRoll motion = roll({1e-3}, geometry, {0.02, 0.215});
+  for (const bool is_exact : {false, true}) {
+    MemoryRoll motion = roll({1e-3}, exact_body(cylinder, is_exact), {0.02, 0.215});
     const double energy = 0.5 * 1.5 * cylinder.m * 0.25, dt = 1e-5;
     double sum = 0, back = 0;
     for (int i = 0; i * dt < 1.5; ++i) {
       motion.seek((i + 0.5) * dt);
-      const double P = Ledger(cylinder, geometry, motion.velocity(), motion.shift()).P_diss() * dt;
+      const double P =
+          Ledger(exact_body(cylinder, is_exact), motion.velocity(), motion.shift()).P_diss() * dt;
       sum += P;
       back = std::min(back, P);
     }
@@ -295,20 +295,21 @@ TEST_CASE(
 }
 
 TEST_CASE("MemoryRoll: at rest from the start, never at rest, and refusals", "[rolling]") {
-  MemoryRoll rest = roll({1e-3}, Geometry::approximate, rubber, 0, 0.3);
+  MemoryRoll rest = roll({1e-3}, cylinder, rubber, 0, 0.3);
   CHECK(rest.stop_time() == 0);
   rest.seek(5);
   CHECK((rest.velocity() == 0 && rest.position() == 0.3 && rest.shift() == 0));
-  MemoryRoll never = roll({1e-3}, Geometry::approximate, {1.87e-3, 2});
+  MemoryRoll never = roll({1e-3}, cylinder, {1.87e-3, 2});
   CHECK(std::isinf(never.stop_time()));
   never.seek(10);
   CHECK(never.velocity() > 0);
   // So long a bulge that v has zeros all the same.
-  MemoryRoll swings = roll({5}, Geometry::approximate, {1.87e-3, 2});
+  MemoryRoll swings = roll({5}, cylinder, {1.87e-3, 2});
   swings.seek(1e8);
   CHECK((swings.velocity() != 0 && std::isinf(swings.stop_time())));
-  CHECK_THROWS_AS(roll({1e-3}, Geometry::approximate, {1.87e-3, -0.1}), Error);
-  CHECK_THROWS_AS(start(scene({1e-3}, Geometry::exact, {0.05, 0}), {Method::solver}, 1e-10), Error);
+  CHECK_THROWS_AS(roll({1e-3}, cylinder, {1.87e-3, -0.1}), Error);
+  CHECK_THROWS_AS(start(scene({1e-3}, exact_body(cylinder), {0.05, 0}), {Method::solver}, 1e-10),
+                  Error);
 }
 
 TEST_CASE("MemoryRoll: too much work is refused", "[rolling]") {
@@ -348,7 +349,7 @@ TEST_CASE("MemoryRoll: the rest tends to that without memory, at the rate of its
     const double limit = closed_roll(cylinder, law, 0.5, 0)->stop_time();
     const auto rate = [&](double length) { return std::pow(length, (1 - b) / (2 - b)); };
     const auto stop = [&](double length) {
-      MemoryRoll motion = roll({length}, Geometry::approximate, law);
+      MemoryRoll motion = roll({length}, cylinder, law);
       const double result = motion.stop_time();
       motion.seek(result);
       INFO("b " << b << " length " << length);
@@ -367,7 +368,7 @@ TEST_CASE("MemoryRoll: the solver of stiff lengths agrees with the other where b
           "[rolling]") {
   for (const double b : {0.0, 0.215, 0.5})
     for (const double length : {1e-3, 1e-4, 1e-5, 1e-6}) {
-      const Scene of = scene({length}, Geometry::exact, {1.87e-3, b});
+      const Scene of = scene({length}, exact_body(cylinder), {1.87e-3, b});
       INFO("b " << b << " length " << length);
       CHECK(std::abs(roll(of, gsl_odeiv2_step_bsimp).stop_time() /
                          roll(of, gsl_odeiv2_step_rk8pd).stop_time() -

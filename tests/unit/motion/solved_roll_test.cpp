@@ -10,6 +10,7 @@
 #include "motion/roll.h"
 #include "unit/catch.h"
 #include "unit/many.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -17,9 +18,9 @@ namespace {
 
 const Body cylinder{1.375, 0.04, 0.5};
 
-Scene scene(double a, double b, Geometry geometry = Geometry::approximate, double v0 = 0.5) {
+Scene scene(double a, double b, const Body& body = cylinder, double v0 = 0.5) {
   Scene roll{};
-  roll.body = cylinder, roll.geometry = geometry, roll.law = PowerLaw{a, b}, roll.v0 = v0;
+  roll.body = body, roll.law = PowerLaw{a, b}, roll.v0 = v0;
   return roll;
 }
 
@@ -48,13 +49,12 @@ double error(const Scene& roll, Stepper stepper, double rtol) {
 TEST_CASE(
     "IntegratedRoll: the explicit steppers find the law, the stop included, in both geometries",
     "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double b : {0.0, 1e-8, 0.0244, 0.215, 0.5, 0.9, 1.0, 1.5, 2.0}) {
-      const Scene roll = scene(2e-3, b, geometry);
+      const Scene roll = scene(2e-3, b, exact_body(cylinder, is_exact));
       for (const Stepper stepper :
            {gsl_odeiv2_step_rkf45, gsl_odeiv2_step_rkck, gsl_odeiv2_step_rk8pd}) {
-        INFO("b " << b << " stepper " << stepper->name << " exact "
-                  << (geometry == Geometry::exact));
+        INFO("b " << b << " stepper " << stepper->name << " exact " << is_exact);
         const double coarse = error(roll, stepper, 1e-6), fine = error(roll, stepper, 1e-10);
         CHECK(coarse < 1e-4);
         CHECK(fine < 1e-8);
@@ -69,12 +69,12 @@ TEST_CASE(
 
 TEST_CASE("IntegratedRoll: the stop, also where v has long been below the tolerance (b near 1)",
           "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const double b : {0.0, 1e-8, 0.215, 0.5, 0.9, 0.99})
       for (const Stepper stepper :
            {gsl_odeiv2_step_rkf45, gsl_odeiv2_step_rk8pd, gsl_odeiv2_step_rk4imp,
             gsl_odeiv2_step_bsimp, gsl_odeiv2_step_msbdf}) {
-        const Scene roll = scene(2e-3, b, geometry);
+        const Scene roll = scene(2e-3, b, exact_body(cylinder, is_exact));
         const auto exact = start(roll, best_method(roll), 0),
                    motion = start(roll, {Method::solver, stepper}, 1e-10);
         const double stop = motion->stop_time();
@@ -113,8 +113,8 @@ TEST_CASE("IntegratedRoll: no stepper goes on where D has reached R, whatever it
   InTurn in_turn;
   for (const double b : {-1e-9, -0.02, -0.1, -0.13, -0.25, -0.41, -0.46})
     for (const double depth : {0.3, 0.03, 1e-3, 1e-4}) {
-      const Scene roll = scene(depth * cylinder.R * std::pow(0.5, -b), b, Geometry::exact);
-      Roll exact(roll.body, roll.geometry, roll.law, roll.v0);
+      const Scene roll = scene(depth * cylinder.R * std::pow(0.5, -b), b, exact_body(cylinder));
+      Roll exact(roll.body, roll.law, roll.v0);
       const double end = std::min(exact.stop_time(), exact.radius_time(exact.stop_time()));
       const bool stops = end == exact.stop_time();
       if (!stops && end > (1 - 1e-9) * exact.stop_time()) continue;  // below the floor
@@ -132,14 +132,14 @@ TEST_CASE("IntegratedRoll: no stepper goes on where D has reached R, whatever it
 }
 
 TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
-  const auto rest = start(scene(1e-3, 0.2, Geometry::approximate, 0),
-                          {Method::solver, gsl_odeiv2_step_rkf45}, 1e-8);
+  const auto rest =
+      start(scene(1e-3, 0.2, cylinder, 0), {Method::solver, gsl_odeiv2_step_rkf45}, 1e-8);
   CHECK(rest->stop_time() == 0);
   rest->seek(3);
   CHECK((rest->velocity() == 0 && rest->position() == 0));
   // b < 0 in exact geometry: D reaches R before the stop
-  const auto grows =
-      start(scene(2e-3, -0.5, Geometry::exact), {Method::solver, gsl_odeiv2_step_rk8pd}, 1e-10);
+  const auto grows = start(scene(2e-3, -0.5, exact_body(cylinder)),
+                           {Method::solver, gsl_odeiv2_step_rk8pd}, 1e-10);
   std::string message;
   try {
     grows->seek(0.72);
@@ -148,14 +148,14 @@ TEST_CASE("IntegratedRoll: rest, and what is refused", "[rolling]") {
   }
   CHECK(message.ends_with(" s the shift has grown to the radius 0.04 m"));
   CHECK_THROWS_AS(start(scene(0.05, 0), {Method::solver, gsl_odeiv2_step_rkf45}, 1e-8), Error);
-  CHECK_THROWS_AS(start(scene(1e-3, 0.2, Geometry::approximate, std::nan("")),
+  CHECK_THROWS_AS(start(scene(1e-3, 0.2, cylinder, std::nan("")),
                         {Method::solver, gsl_odeiv2_step_rkf45}, 1e-8),
                   Error);
 }
 
 // Under a constant shift one step may reach far beyond the stop.
 TEST_CASE("IntegratedRoll: the units of length and time do not matter", "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+  for (const bool is_exact : {false, true})
     for (const Stepper stepper : {gsl_odeiv2_step_rk8pd, gsl_odeiv2_step_rkf45,
                                   gsl_odeiv2_step_rk4imp, gsl_odeiv2_step_msbdf})
       for (const auto& [length, time] :
@@ -163,9 +163,9 @@ TEST_CASE("IntegratedRoll: the units of length and time do not matter", "[rollin
         INFO(stepper->name << ", 2^" << length << " m, 2^" << time << " s");
         const double R = std::ldexp(0.04, length), D = R / 10, v0 = std::ldexp(0.5, length - time);
         const Body body{1, R, 0.5, std::ldexp(9.81, length - 2 * time)};
-        const auto motion =
-            start({body, geometry, PowerLaw{D, 0}, {0}, v0, 0}, {Method::solver, stepper}, 1e-10);
-        const double stop = -v0 / acceleration_from_shift(body, geometry, D);
+        const auto motion = start({exact_body(body, is_exact), PowerLaw{D, 0}, {0}, v0, 0},
+                                  {Method::solver, stepper}, 1e-10);
+        const double stop = -v0 / acceleration_from_shift(exact_body(body, is_exact), D);
         CHECK(std::abs(motion->stop_time() / stop - 1) < 1e-9);
       }
 }

@@ -7,6 +7,7 @@
 #include "motion/roll.h"
 #include "motion/scene.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
@@ -14,8 +15,8 @@ namespace {
 
 const Body cylinder{1.375, 0.04, 0.5};
 
-std::unique_ptr<Motion> rolled(Geometry geometry, Law law, double v0, double x0) {
-  return start({cylinder, geometry, std::move(law), {0}, v0, x0}, {Method::exact}, 0);
+std::unique_ptr<Motion> rolled(const Body& body, Law law, double v0, double x0) {
+  return start({body, std::move(law), {0}, v0, x0}, {Method::exact}, 0);
 }
 
 }  // namespace
@@ -23,9 +24,9 @@ std::unique_ptr<Motion> rolled(Geometry geometry, Law law, double v0, double x0)
 TEST_CASE("Table: a constant shift is the closed form, and the exact one", "[rolling]") {
   for (const double a : {1e-3, 0.03}) {
     const TableLaw law({0.1, 0.3, 2}, {a, a, a});
-    const auto approximate = rolled(Geometry::approximate, law, 0.5, 0.2),
-               exact = rolled(Geometry::exact, law, 0.5, 0.2),
-               same = rolled(Geometry::exact, PowerLaw{a, 0}, 0.5, 0.2);
+    const auto approximate = rolled(cylinder, law, 0.5, 0.2),
+               exact = rolled(exact_body(cylinder), law, 0.5, 0.2),
+               same = rolled(exact_body(cylinder), PowerLaw{a, 0}, 0.5, 0.2);
     const auto closed_owned = closed_roll(cylinder, {a, 0}, 0.5, 0.2);
     Motion& closed = *closed_owned;
     for (const auto& [table, reference] :
@@ -46,7 +47,7 @@ TEST_CASE("Table: D proportional to v + c has a logarithm for its time", "[rolli
   // D = p + q v exactly: v' = -k (p + q v), so v + p/q decays exponentially.
   const double p = 2e-3, q = 4e-3, k = 9.81 / 0.06;
   const TableLaw law({0, 0.2, 0.5, 1}, {p, p + 0.2 * q, p + 0.5 * q, p + q});
-  const auto motion = rolled(Geometry::approximate, law, 0.8, 0);
+  const auto motion = rolled(cylinder, law, 0.8, 0);
   const double stop = std::log1p(0.8 * q / p) / (k * q);
   CHECK(std::abs(motion->stop_time() / stop - 1) < 1e-14);
   for (int i = 1; i < 100; ++i) {
@@ -64,8 +65,7 @@ TEST_CASE("Table: a law that nearly vanishes, against quadrature with 30 digits"
                                   {1e-6, 44.198229968571606, 8.7479028744482666},
                                   {1e-8, 431.57886328443814, 86.224029537621578}};
   for (const auto& [least, time, distance] : references) {
-    const auto motion =
-        rolled(Geometry::approximate, TableLaw({0.1, 0.2, 0.3}, {1e-3, least, 1e-3}), 0.3, 0);
+    const auto motion = rolled(cylinder, TableLaw({0.1, 0.2, 0.3}, {1e-3, least, 1e-3}), 0.3, 0);
     const double tolerance = 2e-14 + 1e-15 * (1e-3 / least);
     CHECK(std::abs(motion->stop_time() / time - 1) < tolerance);
     motion->seek(motion->stop_time());
@@ -75,9 +75,9 @@ TEST_CASE("Table: a law that nearly vanishes, against quadrature with 30 digits"
 
 TEST_CASE("Table: agrees with the solvers on points without a law, in both geometries",
           "[rolling]") {
-  for (const Geometry geometry : {Geometry::approximate, Geometry::exact}) {
+  for (const bool is_exact : {false, true}) {
     Scene roll{};
-    roll.body = cylinder, roll.geometry = geometry, roll.v0 = 0.9;
+    roll.body = cylinder, roll.body.exact = is_exact, roll.v0 = 0.9;
     roll.law = TableLaw(std::vector{0.05, 0.1, 0.3, 0.35, 0.6, 1.0},
                         std::vector{1e-3, 4e-3, 4e-3, 9e-3, 8e-3, 3e-2});
     const auto table = start(roll, best_method(roll), 0),
@@ -98,14 +98,14 @@ TEST_CASE("Table: agrees with the solvers on points without a law, in both geome
 
 TEST_CASE("Table: rest, and refusals", "[rolling]") {
   const TableLaw law({0.1, 1}, {1e-3, 0.05});
-  const auto rest = rolled(Geometry::approximate, law, 0, 0.3);
+  const auto rest = rolled(cylinder, law, 0, 0.3);
   CHECK(rest->stop_time() == 0);
   rest->seek(1);
   CHECK((rest->velocity() == 0 && rest->position() == 0.3 && rest->shift() == 0));
-  CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1.1, 0), Error);
-  CHECK_THROWS_AS(rolled(Geometry::approximate, law, 1, 0), Error);  // D > R
-  CHECK_NOTHROW(rolled(Geometry::exact, law, 0.5, 0));
+  CHECK_THROWS_AS(rolled(cylinder, law, 1.1, 0), Error);
+  CHECK_THROWS_AS(rolled(cylinder, law, 1, 0), Error);  // D > R
+  CHECK_NOTHROW(rolled(exact_body(cylinder), law, 0.5, 0));
   const TableLaw high({0.1, 0.5, 1}, {1e-3, 0.05, 1e-3});
-  CHECK_THROWS_AS(rolled(Geometry::approximate, high, 1, 0), Error);  // D > R on the way
-  CHECK_NOTHROW(rolled(Geometry::approximate, high, 0.2, 0));
+  CHECK_THROWS_AS(rolled(cylinder, high, 1, 0), Error);  // D > R on the way
+  CHECK_NOTHROW(rolled(cylinder, high, 0.2, 0));
 }

@@ -39,10 +39,10 @@ Worst errors(const Scene& roll, Stepper stepper, double rtol) {
 
 TEST_CASE("Solvers: v and the stop are within 100 tolerances, or the roll is refused",
           "[rolling]") {
-  const Scene scenes[] = {{{1.375, 0.04, 0.5}, {}, PowerLaw{5.75e-4, 0.0244}, {0}, 0.5, 0},
-                          {{1.375, 0.04, 0.5}, {}, PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
-                          {{1.375, 0.04, 0.83}, {}, PowerLaw{5.75e-4, 0.0244}, {0}, 0.5, 0},
-                          {{1.375, 0.04, 0.83}, {}, PowerLaw{1.78e-3, 0.255}, {0}, 0.5, 0}};
+  const Scene scenes[] = {{{1.375, 0.04, 0.5}, PowerLaw{5.75e-4, 0.0244}, {0}, 0.5, 0},
+                          {{1.375, 0.04, 0.5}, PowerLaw{1.87e-3, 0.215}, {0}, 0.5, 0},
+                          {{1.375, 0.04, 0.83}, PowerLaw{5.75e-4, 0.0244}, {0}, 0.5, 0},
+                          {{1.375, 0.04, 0.83}, PowerLaw{1.78e-3, 0.255}, {0}, 0.5, 0}};
   InTurn in_turn;
   for (const Stepper stepper : steppers)
     for (const double rtol : {1e-12, 1e-11, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 3e-3, 1e-2, 0.1}) {
@@ -50,13 +50,12 @@ TEST_CASE("Solvers: v and the stop are within 100 tolerances, or the roll is ref
       if (stepper == gsl_odeiv2_step_rk1imp && rtol < 1e-4) continue;
       std::string refused;
       for (Scene roll : scenes)
-        for (const Geometry geometry : {Geometry::approximate, Geometry::exact})
+        for (const bool is_exact : {false, true})
           for (const double slope : {0.0, 0.001, -0.001, 0.02, 0.1}) {
             if (!refused.empty() || !in_turn()) continue;
-            roll.geometry = geometry, roll.body.slope = slope;
+            roll.body.exact = is_exact, roll.body.slope = slope;
             INFO("stepper " << stepper->name << " rtol " << rtol << " law " << roll.law(1) << " K "
-                            << roll.body.K << " slope " << slope << " exact "
-                            << (geometry == Geometry::exact));
+                            << roll.body.K << " slope " << slope << " exact " << is_exact);
             try {
               const Worst worst = errors(roll, stepper, rtol);
               CHECK(worst.speed <= 100 * rtol);

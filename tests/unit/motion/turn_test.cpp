@@ -7,12 +7,13 @@
 
 #include "motion/scene.h"
 #include "unit/catch.h"
+#include "unit/exact_body.h"
 
 using namespace rolling;
 
 namespace {
 
-constexpr auto paper = Geometry::approximate, exact = Geometry::exact;
+constexpr bool paper = false, exact = true;
 
 struct State {
   double t, v, x;
@@ -20,7 +21,7 @@ struct State {
 
 struct Turning {
   double K, R, a, b, S;
-  Geometry geometry;
+  bool is_exact;
   std::vector<State> states;  // the turning point first
 };
 
@@ -64,15 +65,15 @@ const Turning rolls[] = {{0.4,
                            {5, -1.6209726223584305, -3.6869087641617097},
                            {7, -2.2211987449384197, -7.5369717958253566}}}};
 
-Roll roll(double S, PowerLaw law, double v0, Geometry geometry) {
-  return {{1, 0.04, 0.5, 9.81, S}, geometry, law, v0};
+Roll roll(double S, PowerLaw law, double v0, bool is_exact) {
+  return {exact_body({1, 0.04, 0.5, 9.81, S}, is_exact), law, v0};
 }
 
 }  // namespace
 
 TEST_CASE("Roll: up a slope, the turning point, and back", "[rolling]") {
   for (const Turning& r : rolls) {
-    Roll roll({1, r.R, r.K, 9.81, r.S}, r.geometry, PowerLaw{r.a, r.b}, 0.5);
+    Roll roll(exact_body({1, r.R, r.K, 9.81, r.S}, r.is_exact), PowerLaw{r.a, r.b}, 0.5);
     CHECK(roll.turns());
     CHECK(roll.stop_time() == Approx(r.states[0].t).epsilon(1e-13));
     CHECK(roll.at(roll.stop_time()).v == 0);
@@ -88,7 +89,7 @@ TEST_CASE("Roll: up a slope, the turning point, and back", "[rolling]") {
 TEST_CASE("Roll: on the way back its derivatives are limits of differences", "[rolling]") {
   for (const Turning& r : rolls) {
     const auto at = [&](PowerLaw law, double S, double v0) {
-      return Roll({1, r.R, r.K, 9.81, S}, r.geometry, law, v0).at(5);
+      return Roll(exact_body({1, r.R, r.K, 9.81, S}, r.is_exact), law, v0).at(5);
     };
     const PowerLaw law{r.a, r.b};
     const auto p = at(law, r.S, 0.5);
@@ -103,7 +104,7 @@ TEST_CASE("Roll: on the way back its derivatives are limits of differences", "[r
     check(p.v_c[1], p.x_c[1], 1e-4, [&](double h) { return at({r.a, r.b + h}, r.S, 0.5); });
     check(p.v_c[2], p.x_c[2], 1e-3 * r.S, [&](double h) { return at(law, r.S + h, 0.5); });
     check(p.v_v0, p.x_v0, 1e-3, [&](double h) { return at(law, r.S, 0.5 + h); });
-    Roll same({1, r.R, r.K, 9.81, r.S}, r.geometry, law, 0.5);
+    Roll same(exact_body({1, r.R, r.K, 9.81, r.S}, r.is_exact), law, 0.5);
     check(p.a, p.v, 1e-2, [&](double h) { return same.at(5 + h); });
   }
 }
@@ -111,19 +112,19 @@ TEST_CASE("Roll: on the way back its derivatives are limits of differences", "[r
 TEST_CASE(
     "Roll: b > 0 rolls back from a slope whose balance is seen, b = 0 beyond D/R, b < 0 never",
     "[rolling]") {
-  for (const Geometry geometry : {paper, exact}) {
-    CHECK_FALSE(roll(0.0249, {1e-3, 0}, 0.5, geometry).turns());
-    CHECK(roll(0.0251, {1e-3, 0}, 0.5, geometry).turns());
-    CHECK_FALSE(roll(0.5, {1e-3, -0.2}, 0.5, geometry).turns());
-    CHECK_FALSE(roll(1e-3, {5.75e-4, 0.0244}, 0.5, geometry).turns());
-    CHECK(roll(0.01, {1.87e-3, 0.215}, 0.5, geometry).turns());
-    CHECK_FALSE(roll(0, {1.87e-3, 0.215}, 0.5, geometry).turns());
-    CHECK_FALSE(roll(-0.1, {1.87e-3, 0.215}, 0.5, geometry).turns());
-    Roll held = roll(0.0249, {1e-3, 0}, 0.5, geometry);
+  for (const bool is_exact : {false, true}) {
+    CHECK_FALSE(roll(0.0249, {1e-3, 0}, 0.5, is_exact).turns());
+    CHECK(roll(0.0251, {1e-3, 0}, 0.5, is_exact).turns());
+    CHECK_FALSE(roll(0.5, {1e-3, -0.2}, 0.5, is_exact).turns());
+    CHECK_FALSE(roll(1e-3, {5.75e-4, 0.0244}, 0.5, is_exact).turns());
+    CHECK(roll(0.01, {1.87e-3, 0.215}, 0.5, is_exact).turns());
+    CHECK_FALSE(roll(0, {1.87e-3, 0.215}, 0.5, is_exact).turns());
+    CHECK_FALSE(roll(-0.1, {1.87e-3, 0.215}, 0.5, is_exact).turns());
+    Roll held = roll(0.0249, {1e-3, 0}, 0.5, is_exact);
     CHECK((held.at(100).v == 0 && held.at(100).x == held.at(held.stop_time()).x));
     // The way back tends to the speed at which the law balances the slope.
-    Roll back = roll(0.05, {1.87e-3, 0.5}, 0.5, geometry);
-    const double D = geometry == exact ? 0.04 * std::sin(std::atan(0.05)) : 0.04 * 0.05,
+    Roll back = roll(0.05, {1.87e-3, 0.5}, 0.5, is_exact);
+    const double D = is_exact ? 0.04 * std::sin(std::atan(0.05)) : 0.04 * 0.05,
                  last = -std::pow(D / 1.87e-3, 2);
     CHECK(back.last_speed() == Approx(last).epsilon(1e-12));
     CHECK(back.at(1e4).v == Approx(last).epsilon(1e-12));
@@ -131,21 +132,22 @@ TEST_CASE(
 }
 
 TEST_CASE("Roll: a body that the mat does not hold rolls down from rest", "[rolling]") {
-  for (const Geometry geometry : {paper, exact})
+  for (const bool is_exact : {false, true})
     for (const double S : {0.1, -0.1}) {  // v = a t, since D does not depend on v
-      Roll from_rest = roll(S, {1e-3, 0}, 0, geometry);
+      Roll from_rest = roll(S, {1e-3, 0}, 0, is_exact);
       const auto p = from_rest.at(2), q = from_rest.at(4);
       CHECK((from_rest.turns() && from_rest.stop_time() == 0));
       CHECK(p.v * S < 0);
       CHECK(q.v == Approx(2 * p.v).epsilon(1e-12));
       CHECK(q.x == Approx(2 * q.v).epsilon(1e-12));
-      CHECK(roll(S / 5, {1e-3, 0}, 0, geometry).at(3).x == 0);
+      CHECK(roll(S / 5, {1e-3, 0}, 0, is_exact).at(3).x == 0);
     }
 }
 
 TEST_CASE("Scene: the solvers turn where the integral over speed does", "[rolling]") {
   for (const Turning& r : rolls) {
-    const Scene scene{{1, r.R, r.K, 9.81, r.S}, r.geometry, PowerLaw{r.a, r.b}, {0}, 0.5, 0.1};
+    const Scene scene{
+        exact_body({1, r.R, r.K, 9.81, r.S}, r.is_exact), PowerLaw{r.a, r.b}, {0}, 0.5, 0.1};
     for (const Stepper stepper :
          {gsl_odeiv2_step_rk8pd, gsl_odeiv2_step_rkf45, gsl_odeiv2_step_rk4imp}) {
       const auto best = start(scene, {Method::exact}, 0),
