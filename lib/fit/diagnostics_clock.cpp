@@ -15,7 +15,7 @@ namespace rolling {
 namespace {
 
 bool fits_positions(const Fitted& fit) {
-  return fit.is_roll() && !fit.noise->known() && fit.model.runs().front().column == Quantity::x;
+  return fit.is_roll() && !fit.noise().known() && fit.model.runs().front().column == Quantity::x;
 }
 
 /// The velocities of the roll at the rows of a run.

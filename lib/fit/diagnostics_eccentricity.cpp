@@ -57,7 +57,7 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, dou
   const ObservedRun& of = fit.model.runs()[run];
   std::vector<double> by_e = response(of, path, r);
   if (of.H) by_e = of.H->times(by_e);
-  if (fit.noise->known()) fit.noise->whitener(run).apply(by_e);
+  if (fit.noise().known()) fit.noise().whitener(run).apply(by_e);
   const std::size_t own = Q.size();
   const std::size_t q = own + 2;
   std::vector<double> columns;

@@ -65,10 +65,10 @@ OffReadings off_of_run(const Fitted& fit, std::size_t r, std::span<const double>
 /// Around the roll of this fit. In long runs no single reading has a share in it.
 OffReadings around(const Fitted& fit, bool robust) {
   const bool is_short = fit.minimum.f.size() <= 1000 * fit.model.runs().size();
-  const bool known = fit.noise->known();
-  const auto sizes = known ? fit.noise->sources() : fit.model.rows();
+  const bool known = fit.noise().known();
+  const auto sizes = known ? fit.noise().sources() : fit.model.rows();
   const auto raw = [&](const std::vector<double>& x) {
-    return known ? fit.noise->to_sources(x) : x;
+    return known ? fit.noise().to_sources(x) : x;
   };
   const std::vector<double> e = raw(fit.minimum.f);
   std::vector<double> left(e.size(), 1);
@@ -108,7 +108,7 @@ OffReadings off_readings(Fitted fit, bool robust) {
 }
 
 double few_reversals(const Fitted& fit) {
-  if (!fit.is_roll() || fit.noise->known()) return 1;
+  if (!fit.is_roll() || fit.noise().known()) return 1;
   double expected = 0;
   unsigned seen = 0;
   const auto residuals = by_run(fit.minimum.f, fit.model.rows());  // model - reading

@@ -188,7 +188,7 @@ FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOpt
   const auto clock_jump = jump_of_clock(found, Q);
   Uncertainty noise = uncertainty_of(found, std::move(Q));
   const auto agreement = agreement_of(route, runs, options, noise, found);
-  if (route == Route::velocity && noise.kind == Errors::autocorrelation && !found.noise->known())
+  if (route == Route::velocity && noise.kind == Errors::autocorrelation && !found.noise().known())
     found.error_of_clock = error_of_delay(found);
   std::vector<ErrorShare> shares{{"noise", noise.covariance}};
   const auto freedom = static_cast<double>(found.minimum.f.size() - found.minimum.theta.size());

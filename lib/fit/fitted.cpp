@@ -20,7 +20,7 @@ void require_rows(std::size_t n, std::size_t p, std::size_t independent) {
 }
 
 std::size_t Fitted::degrees_left() const {
-  const std::size_t n = informative_rows(model.runs(), parameters(), *noise);
+  const std::size_t n = model.informative_rows();
   const std::size_t p = minimum.theta.size();
   const std::size_t left = n > p ? n - p : 0;
   return noise_of_roll ? std::min(left, noise_of_roll->freedom) : left;

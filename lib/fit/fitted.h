@@ -42,7 +42,6 @@ struct SeenNoise {
 /// start from it.
 struct Fitted {
   Minimum minimum;
-  std::shared_ptr<const Noise> noise = std::make_shared<const Noise>();  ///< of the weights
   std::optional<SeenNoise> noise_of_roll = {};  ///< that made the rows of a log-log line
   std::size_t negative = 0;                     ///< see FitResult
   std::vector<FittedNumber> coefficients = {};  ///< of the law, as its formula names them
@@ -55,7 +54,8 @@ struct Fitted {
 
   bool is_roll() const { return model.is_roll(); }
   /// The weighted problem of which this is the minimum.
-  System system() const { return system_of(model, noise); }
+  System system() const { return system_of(model); }
+  const Noise& noise() const { return model.noise(); }
   const Parameters& parameters() const { return model.parameters(); }
   Law law() const;
   /// The numbers that have errors: the coefficients, those of the scene, and v0 and x0

@@ -262,26 +262,6 @@ std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
   return runs;
 }
 
-std::size_t means_taken(const std::vector<ObservedRun>& runs, const Parameters& parameters) {
-  if (parameters.of_positions()) return 0;
-  return static_cast<std::size_t>(std::ranges::count(runs, Quantity::x, &ObservedRun::column));
-}
-
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>& runs, AddedNoise added) {
-  if (!runs.front().H) return std::make_shared<const Noise>();
-  std::vector<Filters> all;
-  for (const ObservedRun& run : runs) all.push_back(run.H);
-  return std::make_shared<const Noise>(std::move(all), added);
-}
-
-std::size_t informative_rows(const std::vector<ObservedRun>& runs, const Parameters& parameters,
-                             const Noise& noise) {
-  if (noise.from_sources_alone()) return noise.informative();
-  std::size_t n = 0;
-  for (const ObservedRun& run : runs) n += run.y.size();
-  return n - means_taken(runs, parameters);
-}
-
 Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   Body body = parameters_.body(theta, runs()[run].body);
   body.slope *= runs()[run].way;
@@ -368,11 +348,31 @@ std::vector<std::size_t> Model::rows() const {
   return rows;
 }
 
-System system_of(const Model& model, const std::shared_ptr<const Noise>& noise) {
+Model Model::weighted(AddedNoise added) const {
+  Model other = *this;
+  std::vector<Filters> all;
+  for (const ObservedRun& run : runs())
+    if (run.H) all.push_back(run.H);
+  other.noise_ = std::make_shared<const Noise>(std::move(all), added);
+  return other;
+}
+
+std::size_t Model::informative_rows() const {
+  if (noise_->from_sources_alone()) return noise_->informative();
+  std::size_t n = 0;
+  for (const ObservedRun& run : runs()) n += run.y.size();
+  return n - means_taken();
+}
+
+std::size_t Model::means_taken() const {
+  if (parameters_.of_positions()) return 0;
+  return static_cast<std::size_t>(std::ranges::count(runs(), Quantity::x, &ObservedRun::column));
+}
+
+System system_of(const Model& model) {
   const Parameters& q = model.parameters();
   return {model.rows(), q.own(), q.shared(),
-          [model, noise, columns = q.columns()](const std::vector<double>& theta,
-                                                const TakeRows& take) {
+          [model, columns = q.columns()](const std::vector<double>& theta, const TakeRows& take) {
     const double c0 = model.parameters().law(theta).c(0);
     Parameters::Numbers by{};
     for (std::size_t r = 0; r < model.runs().size(); ++r) {
@@ -387,7 +387,7 @@ System system_of(const Model& model, const std::shared_ptr<const Noise>& noise) 
       }
       if (run.H) all = run.H->times(all);
       for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
-      if (noise->known()) noise->whitener(r).apply(all);
+      if (model.noise().known()) model.noise().whitener(r).apply(all);
       take(r, std::span(all).first(rows), std::span(all).subspan(rows));
     }
           }};

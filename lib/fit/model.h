@@ -165,21 +165,11 @@ std::vector<Response> responses_of(const std::vector<Run>&);
 std::vector<ObservedRun> observe(Route, const std::vector<Run>&, const std::vector<Rows>&,
                                  const std::vector<Response>&, const FitOptions&);
 
-/// The number of runs of positions whose mean the filters remove; each such run loses one degree of
-/// freedom. Where x0 is a parameter, the filters keep the mean.
-std::size_t means_taken(const std::vector<ObservedRun>&, const Parameters&);
-
-/// The noise of these runs; unknown if they have no H.
-std::shared_ptr<const Noise> noise_of(const std::vector<ObservedRun>&, AddedNoise = {});
-
-/// The number of rows of these runs that filters leave independent of the others.
-std::size_t informative_rows(const std::vector<ObservedRun>&, const Parameters&, const Noise&);
-
 /// The model of the raw column of one run: returns the value at time t from the origin (of shifts,
 /// at this speed), and writes its derivatives, those that it has.
 using RawModel = std::function<double(double t, Parameters::Numbers& by)>;
 
-/// All runs under one law. Copies share the runs.
+/// All runs under one law, and the weights of their rows. Copies share the runs and the weights.
 class Model {
  public:
   Model() = default;
@@ -192,11 +182,21 @@ class Model {
     other.parameters_ = parameters;
     return other;
   }
+  /// The same with the weights that the noise of the runs has, if they have an H; and without.
+  Model weighted(AddedNoise = {}) const;
+  Model unweighted() const { return {runs_, parameters_}; }
 
   const std::vector<ObservedRun>& runs() const { return *runs_; }
   /// The number of fitted rows of each run.
   std::vector<std::size_t> rows() const;
+  /// The number of them that filters leave independent of the others.
+  std::size_t informative_rows() const;
+  /// The number of runs of positions whose mean the filters remove; each such run loses one degree
+  /// of freedom. Where x0 is a parameter, the filters keep the mean.
+  std::size_t means_taken() const;
   const Parameters& parameters() const { return parameters_; }
+  /// That of the weights.
+  const Noise& noise() const { return *noise_; }
   bool is_roll() const { return runs().front().column != Quantity::D; }
   Roll roll(const std::vector<double>& theta, std::size_t run) const;
   /// Refers to the runs.
@@ -205,13 +205,16 @@ class Model {
   std::vector<double> raw_column(const std::vector<double>& theta, std::size_t run) const;
 
  private:
+  Model(std::shared_ptr<const std::vector<ObservedRun>> runs, const Parameters& parameters)
+      : runs_(std::move(runs)), parameters_(parameters) {}
+
   std::shared_ptr<const std::vector<ObservedRun>> runs_;
   Parameters parameters_;
+  std::shared_ptr<const Noise> noise_ = std::make_shared<const Noise>();
 };
 
 /// The least-squares problem of a model: the residuals H raw - y and their derivatives, whitened
 /// if the noise is known.
-System system_of(const Model&,
-                 const std::shared_ptr<const Noise>& = std::make_shared<const Noise>());
+System system_of(const Model&);
 
 }  // namespace rolling

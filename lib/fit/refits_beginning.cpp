@@ -69,7 +69,7 @@ std::optional<Beginning> disturbed_beginning(Route route, const std::vector<Run>
     if (!run.filters.empty()) return {};
   silence_gsl();
   const Fitted joint = fit_route(route, runs, options);
-  if (!joint.is_roll() || joint.noise->known()) return {};
+  if (!joint.is_roll() || joint.noise().known()) return {};
   const std::size_t parameters = joint.parameters().of_one_run().count();
   BeginningSearch search;
   for (std::size_t r = 0; r < runs.size(); ++r) try {

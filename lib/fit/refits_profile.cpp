@@ -39,8 +39,7 @@ FewRows few_rows(const Fitted& fit) {
     run.H = {};
   }
   const System columns = system_of(Model(std::move(runs), fit.parameters()));
-  return {columns, linearised(columns, fit.minimum.theta),
-          means_taken(fit.model.runs(), fit.parameters()) > 0};
+  return {columns, linearised(columns, fit.minimum.theta), fit.model.means_taken() > 0};
 }
 
 /// The size of what is not linear on this step from the minimum, relative to what is. Throws Error
@@ -234,7 +233,7 @@ double end_of_interval(const Profile& profile, Profile::Visit far) {
 /// The fit with b = 0, if this is a wall. It is none where the body rolls alike just behind it: a
 /// mat that holds it at rest holds it for b < 0 as well.
 std::optional<Fitted> fit_at_wall(const Fitted& fit) {
-  const auto wall = minimum_at_wall(fit.model, fit.noise, fit.minimum.theta);
+  const auto wall = minimum_at_wall(fit.model, fit.minimum.theta);
   if (!wall) return {};
   const Parameters& q = fit.parameters();
   const std::size_t exponent = q.count() - q.scene() - 1;

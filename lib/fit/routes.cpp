@@ -22,8 +22,8 @@ std::vector<std::vector<double>> narrowed(const Fitted& fit,
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < few; ++k) chosen.push_back(k * n / few);
   for (const std::size_t run : chosen) runs.push_back(fit.model.runs()[run]);
-  const auto noise = noise_of(runs, fit.noise->added());
-  const System system = system_of(Model(std::move(runs), fit.parameters().of_runs(few)), noise);
+  const Model model(std::move(runs), fit.parameters().of_runs(few));
+  const System system = system_of(model.weighted(fit.noise().added()));
   Minimum best;
   for (const std::vector<double>& start : starts)
     improve(best, system, fit.parameters().theta_of_runs(start, chosen));
@@ -45,7 +45,8 @@ std::vector<double> with_x0_held(const Fitted& fit, const std::vector<double>& s
     held.erase(held.begin() + static_cast<std::ptrdiff_t>((r + 1) * q.own() - 1));
   }
   Minimum best{held};
-  improve(best, system_of(Model(std::move(runs), q.with(1, 0)), fit.noise), held);
+  const Model model(std::move(runs), q.with(1, 0));
+  improve(best, system_of(model.weighted(fit.noise().added())), held);
   for (std::size_t place = q.own() - 1; place < start.size() - q.shared(); place += q.own())
     best.theta.insert(best.theta.begin() + static_cast<std::ptrdiff_t>(place), start[place]);
   return best.theta;
@@ -55,7 +56,6 @@ std::vector<double> with_x0_held(const Fitted& fit, const std::vector<double>& s
 
 Fitted fit_beside(const Fitted& power, const LawForm& law, const FitOptions::Fixed& fixed) {
   Fitted fit{};
-  fit.noise = power.noise;
   const double v = power.fastest();
   fit.model = power.model.with(power.parameters().with(law, power.law()(v), v, fixed));
   std::vector<std::vector<double>> starts;

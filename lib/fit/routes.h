@@ -44,25 +44,21 @@ Fitted fit_rolls(Route, const std::vector<Run>&, std::vector<Rows>, std::vector<
 
 /// Minimises by the loss that the options name: squares from the first start. The robust loss
 /// ignores what the cusps and the wall make.
-Minimum search(const Model&, const std::shared_ptr<const Noise>&,
-               const std::vector<std::vector<double>>& starts, const FitOptions&);
+Minimum search(const Model&, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// The smallest sum of squares with this exponent of a v^b held, from a theta in which it is free,
 /// and its place as such a theta, without f and R; infinite where the search finds none.
-Minimum with_exponent_held(const Model&, const std::shared_ptr<const Noise>&,
-                           std::vector<double> theta, double b);
+Minimum with_exponent_held(const Model&, std::vector<double> theta, double b);
 
 /// The minimum at the wall of b = 0, if there is one: a body that turns on a slope or on a road
 /// would be held there under a v^b with b < 0. Nothing if the search finds none.
-std::optional<Minimum> minimum_at_wall(const Model&, const std::shared_ptr<const Noise>&,
-                                       const std::vector<double>& theta);
+std::optional<Minimum> minimum_at_wall(const Model&, const std::vector<double>& theta);
 
 /// Says that the slope of the mat is not determined by runs in one direction; `found` follows.
 [[noreturn]] void refuse_one_way(const std::string& found = "");
 
-/// The fit of these runs with the weights of this noise.
-Fitted fit_from(const FirstGuess&, std::vector<ObservedRun>, std::shared_ptr<const Noise>,
-                const FitOptions&);
+/// The fit of a model by a search from these starts, see search().
+Fitted fit_from(Model, const std::vector<std::vector<double>>& starts, const FitOptions&);
 
 /// Fits one run of a joint fit of rolls separately: the same rows and weights, the slope of the
 /// mat fixed at the joint value. Throws Error if the run does not determine its parameters, or has

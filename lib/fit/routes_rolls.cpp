@@ -52,17 +52,17 @@ bool leave_out_slow(const Model& model, const std::vector<double>& theta,
 
 /// The sum of squares of the residuals without weights.
 double unweighted(const Fitted& fit) {
-  return evaluated(system_of(fit.model), fit.minimum.theta).rss;
+  return evaluated(system_of(fit.model.unweighted()), fit.minimum.theta).rss;
 }
 
 /// True if the weighted sum of squares is more than four times what the unweighted residuals and
 /// the filters predict, that is, if the columns hold noise that did not pass the filters.
 bool rounded(const Fitted& fit) {
-  if (!fit.noise->from_sources_alone()) return false;
+  if (!fit.noise().from_sources_alone()) return false;
   double variances = 0;
   const std::vector<std::size_t> rows = fit.model.rows();
   for (std::size_t r = 0; r < rows.size(); ++r)
-    for (std::size_t i = 0; i < rows[r]; ++i) variances += fit.noise->whitener(r).variance(i);
+    for (std::size_t i = 0; i < rows[r]; ++i) variances += fit.noise().whitener(r).variance(i);
   return fit.minimum.rss * variances >
          4 * unweighted(fit) * static_cast<double>(fit.minimum.f.size());
 }
@@ -73,20 +73,19 @@ bool rounded(const Fitted& fit) {
 void allow_for_rounding(Fitted& fit, const FitOptions& options) {
   if (!rounded(fit)) return;
   const bool many = std::ranges::max(fit.model.rows()) > searched_for_white_noise;
-  fit.noise = {};  // frees memory: it is large, and the search needs as much
+  fit.model = fit.model.unweighted();  // frees memory: the search needs as much
   const WhiteShare found = most_likely_share(fit.model, fit.minimum.theta, 1e-7, 100);
   const bool adopted = many || found.decisive();
-  fit.noise = noise_of(fit.model.runs(), {adopted ? found.share : 0});
-  if (adopted) fit.minimum = search(fit.model, fit.noise, {fit.minimum.theta}, options);
+  fit.model = fit.model.weighted({adopted ? found.share : 0});
+  if (adopted) fit.minimum = search(fit.model, {fit.minimum.theta}, options);
   read_off(fit);
 }
 
 /// Throws Error if the rows leave a coefficient of the law unknown: its standard error at theta,
 /// where coefficients are of order one, is above levels::largest_sigma_b. A search for them would
 /// go on and on along a valley.
-void require_known(const Model& model, const std::shared_ptr<const Noise>& noise,
-                   const std::vector<double>& theta) {
-  const Minimum at = evaluated(system_of(model, noise), theta);
+void require_known(const Model& model, const std::vector<double>& theta) {
+  const Minimum at = evaluated(system_of(model), theta);
   const Parameters& q = model.parameters();
   const double freedom = static_cast<double>(at.f.size()) - static_cast<double>(theta.size());
   for (std::size_t j = q.own(); j < q.columns() && freedom > 0; ++j) {
@@ -131,22 +130,21 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   const auto& theta = joint.minimum.theta;
   const Parameters& all = joint.parameters();
   ObservedRun run = joint.model.runs()[r];
-  const Parameters own = all.of_one_run();
   run.body = all.body(theta, run.body);
-  auto noise = noise_of({run}, joint.noise->added());
-  require_rows(run.y.size(), own.count(), informative_rows({run}, own, *noise));
+  const Model own = Model({run}, all.of_one_run()).weighted(joint.noise().added());
+  require_rows(run.y.size(), own.parameters().count(), own.informative_rows());
   const std::vector<double> start = all.theta_of_run(theta, r);
   try {
-    require_known(Model({run}, own), noise, start);
-    return fit_from({own, {start}}, {run}, noise, options);
+    require_known(own, start);
+    return fit_from(own, {start}, options);
   } catch (const Error&) {  // also where the joint law is far from that of the run
-    if (noise->known() || !options.fits_power()) throw;
+    if (own.noise().known() || !options.fits_power()) throw;
   }
   FitOptions alone = options;
   alone.fit_slope = alone.fit_wind = alone.fit_steepness = false;
   const FirstGuess guess = first_guess({run}, alone);
-  require_known(Model({run}, guess.parameters), noise, guess.starts.front());
-  return fit_from(guess, {std::move(run)}, std::move(noise), alone);
+  require_known(own.with(guess.parameters), guess.starts.front());
+  return fit_from(own.with(guess.parameters), guess.starts, alone);
 }
 
 Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> rows,
@@ -154,28 +152,28 @@ Fitted fit_rolls(Route route, const std::vector<Run>& all, std::vector<Rows> row
   std::optional<FirstGuess> guess;
   Fitted fit{};
   for (int round = 0; round < 4; ++round) {  // each round removes the slow rows of the last fit
-    auto runs = observe(route, all, rows, responses, options);
-    auto noise = noise_of(runs, added);
+    const Parameters q(options, route == Route::position, all.size(), 1, 1);
+    const Model model = Model(observe(route, all, rows, responses, options), q).weighted(added);
     if (!guess) {
+      const bool known = model.noise().known();
       std::size_t n = 0;
-      for (const ObservedRun& run : runs) n += run.y.size();
-      const Parameters q(options, route == Route::position, runs.size(), 1, 1);
+      for (const ObservedRun& run : model.runs()) n += run.y.size();
       // Shifts are fitted for what all runs share: the v0 of their rolls is not reported.
       const bool asked = is_trajectory(route) || q.shared() > 0;
-      require_rows(n, asked ? q.count() : 0, informative_rows(runs, q, *noise));
-      require_ways(runs, options);
-      const auto plain = noise->known() ? observe(route, all, rows, {}, options) : runs;
-      guess = first_guess(plain, options);
+      require_rows(n, asked ? q.count() : 0, model.informative_rows());
+      require_ways(model.runs(), options);
+      guess = first_guess(known ? observe(route, all, rows, {}, options) : model.runs(), options);
       // The means of blocks lead a search of many rows to the minimum, or refuse for all of them.
-      if (auto few = block_means(runs); !few.empty() && !noise->known() && !options.robust)
-        guess->starts.front() = fit_from(*guess, std::move(few), noise, options).minimum.theta;
+      if (auto few = block_means(model.runs()); !few.empty() && !known && !options.robust)
+        guess->starts.front() =
+            fit_from({std::move(few), guess->parameters}, guess->starts, options).minimum.theta;
     }
     if (options.min_speed <= 0) {  // no round follows: frees memory
       responses = {};
       rows.clear();
     }
     fit = {};  // frees memory
-    fit = fit_from(*guess, std::move(runs), std::move(noise), options);
+    fit = fit_from(model.with(guess->parameters), guess->starts, options);
     guess->starts.front() = fit.minimum.theta;
     if (options.min_speed <= 0 ||
         !leave_out_slow(fit.model, guess->starts.front(), all, rows, options.min_speed))
@@ -199,7 +197,7 @@ std::vector<Rows> usable(Route route, const std::vector<Run>& all) {
 }
 
 double sum_of_squares(const Fitted& fit) {
-  if (!fit.noise->known()) return fit.minimum.rss;
+  if (!fit.noise().known()) return fit.minimum.rss;
   const auto& runs = fit.model.runs();
   if (!runs.front().H_of_accelerations) return unweighted(fit);
   double sum = 0;

@@ -62,16 +62,15 @@ bool has_wall(const Model& rolls, const std::vector<double>& theta) {
 
 /// The minimum from this start. A search may end at the wall before it is at the lowest place
 /// there, or behind it. If it does, this function goes along the wall, and on from there.
-Minimum minimise_along_wall(const Model& rolls, const std::shared_ptr<const Noise>& noise,
-                            const std::vector<double>& start) {
-  const System system = system_of(rolls, noise);
+Minimum minimise_along_wall(const Model& rolls, const std::vector<double>& start) {
+  const System system = system_of(rolls);
   if (!has_wall(rolls, start)) return minimise(system, start);
   Minimum best{start};
   improve(best, system, start);
   const Parameters& q = rolls.parameters();
   const bool before_wall = std::isfinite(best.rss) && q.law(best.theta).power()->b > 0;
   if (before_wall && !ends_at_an_edge(best)) return best;
-  const auto at_wall = minimum_at_wall(rolls, noise, best.theta);
+  const auto at_wall = minimum_at_wall(rolls, best.theta);
   if (!at_wall) return minimise(system, start);
   improve(best, system, at_wall->theta);
   return best.rss < at_wall->rss ? best : evaluated(system, at_wall->theta);
@@ -87,44 +86,40 @@ bool go_one_way(const Model& rolls) {
 
 }  // namespace
 
-Minimum with_exponent_held(const Model& rolls, const std::shared_ptr<const Noise>& noise,
-                           std::vector<double> theta, double b) {
+Minimum with_exponent_held(const Model& rolls, std::vector<double> theta, double b) {
   const Parameters& q = rolls.parameters();
   const auto exponent = static_cast<std::ptrdiff_t>(q.count() - q.scene() - 1);
   theta.erase(theta.begin() + exponent);
   Minimum found{theta};
-  improve(found, system_of(rolls.with(q.with(q.first_of_law + 1, b)), noise), theta);
+  improve(found, system_of(rolls.with(q.with(q.first_of_law + 1, b))), theta);
   found.theta.insert(found.theta.begin() + exponent, b);
   return {std::move(found.theta), {}, {}, found.rss};  // R has no column for b
 }
 
-std::optional<Minimum> minimum_at_wall(const Model& rolls,
-                                       const std::shared_ptr<const Noise>& noise,
-                                       const std::vector<double>& theta) {
+std::optional<Minimum> minimum_at_wall(const Model& rolls, const std::vector<double>& theta) {
   if (!has_wall(rolls, theta)) return {};
-  Minimum found = with_exponent_held(rolls, noise, theta, 0);
+  Minimum found = with_exponent_held(rolls, theta, 0);
   if (!std::isfinite(found.rss)) return {};
   return found;
 }
 
-Minimum search(const Model& model, const std::shared_ptr<const Noise>& noise,
-               const std::vector<std::vector<double>>& starts, const FitOptions& options) {
-  const System system = system_of(model, noise);
+Minimum search(const Model& model, const std::vector<std::vector<double>>& starts,
+               const FitOptions& options) {
+  const System system = system_of(model);
   if (options.robust) return minimise_robust(system, starts);
-  return beyond_cusps(model, system, minimise_along_wall(model, noise, starts.front()));
+  return beyond_cusps(model, system, minimise_along_wall(model, starts.front()));
 }
 
 void refuse_one_way(const std::string& found) {
   fail<OneWay>("a slope and the law slow the body down alike, and these runs go one way{}", found);
 }
 
-Fitted fit_from(const FirstGuess& start, std::vector<ObservedRun> runs,
-                std::shared_ptr<const Noise> noise, const FitOptions& options) {
+Fitted fit_from(Model model, const std::vector<std::vector<double>>& starts,
+                const FitOptions& options) {
   Fitted fit{};
-  fit.noise = std::move(noise);
-  fit.model = Model(std::move(runs), start.parameters);
+  fit.model = std::move(model);
   try {
-    fit.minimum = search(fit.model, fit.noise, start.starts, options);
+    fit.minimum = search(fit.model, starts, options);
   } catch (const Error& error) {
     const bool not_one = error.kind == NotOneRoll;
     if (not_one && options.fit_slope && go_one_way(fit.model)) refuse_one_way();

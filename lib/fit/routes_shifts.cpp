@@ -176,8 +176,7 @@ Fitted fit_shift(const std::vector<Run>& all, const FitOptions& options) {
   std::vector<ObservedRun> runs = observed_shifts(all, rows, options, false);
   const Parameters q = parameters_of_shifts(runs, options);
   const PowerLaw start = power_start(runs, q.speed_unit(), options);
-  Fitted fit = fit_from({q, {q.theta(start, {}, {})}}, std::move(runs),
-                        std::make_shared<const Noise>(), options);
+  Fitted fit = fit_from({std::move(runs), q}, {q.theta(start, {}, {})}, options);
   std::vector<double> variances;
   for (const Run& run : all)
     if (!shift_rows(run, options, false).empty())
@@ -197,9 +196,9 @@ std::optional<Fitted> known_roll(const std::vector<Run>& runs, const FitOptions&
   if (responses.empty()) return {};
   try {
     Fitted roll = fit_rolls(Route::shift, runs, usable(Route::shift, runs), responses, options);
-    if (!roll.noise->from_sources_alone()) return {};
+    if (!roll.noise().from_sources_alone()) return {};
     roll.noise_of_roll = seen_noise(roll, orthonormal(roll.system(), roll.minimum));
-    roll.noise = {};
+    roll.model = roll.model.unweighted();
     return roll;
   } catch (const Error&) {
     return {};
@@ -312,8 +311,7 @@ Fitted fit_log_log(const std::vector<Run>& all, const FitOptions& options,
   std::vector<ObservedRun> logarithms = observed_shifts(runs, rows, options, true);
   const Parameters q = parameters_of_shifts(logarithms, options);
   // The residuals are linear: any start will do.
-  Fitted line = fit_from({q, {q.theta({1e-3, 0}, {}, {})}}, std::move(logarithms),
-                         std::make_shared<const Noise>(), options);
+  Fitted line = fit_from({std::move(logarithms), q}, {q.theta({1e-3, 0}, {}, {})}, options);
   if (roll) carry_noise(line, runs, rows, theirs, std::move(*roll));
   else line.negative = all_rows - positive;
   return line;

@@ -183,10 +183,10 @@ std::vector<ObservedRun> block_means(const std::vector<ObservedRun>& runs) {
 }
 
 Fitted of_means(Fitted fit, const FitOptions& options) {
-  if (!fit.is_roll() || fit.noise->known()) return fit;
+  if (!fit.is_roll() || fit.noise().known()) return fit;
   std::vector<ObservedRun> few = block_means(fit.model.runs());
   if (few.empty()) return fit;
-  return fit_from({fit.parameters(), {fit.minimum.theta}}, std::move(few), fit.noise, options);
+  return fit_from({std::move(few), fit.parameters()}, {fit.minimum.theta}, options);
 }
 
 namespace {
@@ -308,8 +308,7 @@ std::vector<double> rough_on_road(const Model& model, const System& system,
   if (!std::isfinite(best.rss)) fail("no roll on this road comes near the readings");
   const std::vector<double> start = best.theta;
   improve(best, system, start);
-  const auto noise = std::make_shared<const Noise>();
-  if (!options.fixed[1]) improve(best, system, with_exponent_held(model, noise, start, 0.25).theta);
+  if (!options.fixed[1]) improve(best, system, with_exponent_held(model, start, 0.25).theta);
   return best.theta;
 }
 
@@ -357,8 +356,7 @@ FirstGuess first_guess(const std::vector<ObservedRun>& runs, const FitOptions& o
   // right does not leave it; with b held the other parameters come first.
   if (std::ranges::any_of(thin, &Thinned::turns) && !options.fixed[1])
     for (std::size_t k = 0; k < exponents.size(); ++k) {
-      all.push_back(
-          with_exponent_held(model, std::make_shared<const Noise>(), all[k], exponents[k]).theta);
+      all.push_back(with_exponent_held(model, all[k], exponents[k]).theta);
       improve(best, system, all.back());
       Minimum at_wall = tried(system, all.back());
       if (at_wall.rss < best.rss) best = std::move(at_wall);

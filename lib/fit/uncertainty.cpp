@@ -86,14 +86,14 @@ SeenNoise seen_noise(const Fitted& fit, Matrix Q) {
   seen.e = seen.innovations = f;
   seen.sources = seen.runs = fit.model.rows();
   seen.B = std::move(Q);
-  if (fit.noise->from_sources_alone()) {
-    seen.innovations = fit.noise->innovations(f, seen.runs);
+  if (fit.noise().from_sources_alone()) {
+    seen.innovations = fit.noise().innovations(f, seen.runs);
     Matrix few;
-    for (const auto& column : seen.B) few.push_back(fit.noise->innovations(column, seen.runs));
+    for (const auto& column : seen.B) few.push_back(fit.noise().innovations(column, seen.runs));
     seen.taken = taken_by(few, seen.runs);
-    seen.e = fit.noise->to_sources(f);
-    seen.sources = fit.noise->sources();
-    for (auto& column : seen.B) column = fit.noise->to_sources(std::move(column));
+    seen.e = fit.noise().to_sources(f);
+    seen.sources = fit.noise().sources();
+    for (auto& column : seen.B) column = fit.noise().to_sources(std::move(column));
   } else {
     seen.taken = taken_by(seen.B, seen.runs);
     seen.left = left_of(seen.B, f.size());
@@ -113,8 +113,7 @@ std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Er
   for (auto& column : scores)
     for (std::size_t i = 0; i < seen.e.size(); ++i)
       column[i] *= seen.e[i] / (by_leverage ? std::max(seen.left[i], 0.01) : 1);
-  const std::size_t taken =
-      fit.minimum.theta.size() + means_taken(fit.model.runs(), fit.parameters());
+  const std::size_t taken = fit.minimum.theta.size() + fit.model.means_taken();
   std::vector<double> M = kind == Errors::uneven
                               ? products(scores, seen.sources)
                               : newey_west(std::move(scores), taken, seen.e, seen.sources);
@@ -129,8 +128,8 @@ std::vector<double> consistent_meat(const Fitted& fit, const SeenNoise& seen, Er
 std::pair<double, Errors> tested(const Fitted& fit, const SeenNoise& seen) {
   const auto& [noise, runs] = std::tie(seen.innovations, seen.runs);
   Errors white = Errors::classical;
-  if (seen.left.empty() || fit.noise->known()) white = Errors::filters;
-  if (fit.noise->added().inferred) white = Errors::differences;
+  if (seen.left.empty() || fit.noise().known()) white = Errors::filters;
+  if (fit.noise().added().inferred) white = Errors::differences;
   double whiteness = ljung_box(noise, seen.taken, runs);
   if (fit.minimum.f.size() < levels::least_tested) return {whiteness, white};
   const bool uneven = breusch_pagan(noise, runs, seen.left) <= levels::uneven;
@@ -152,7 +151,7 @@ bool by_a_clock(const std::vector<double>& t) {
 }  // namespace
 
 double variance_of_rounding(const Fitted& fit) {
-  if (!fit.is_roll() || fit.noise->known()) return 0;
+  if (!fit.is_roll() || fit.noise().known()) return 0;
   double sum = 0;
   bool rounded = false;
   for (const ObservedRun& run : fit.model.runs()) {

@@ -70,7 +70,7 @@ TEST_CASE("white share: of a filter that changes nothing each is as likely as no
   const std::vector<Run> runs{run};
   const auto rows = usable(Route::velocity, runs);
   const Fitted fit = fit_rolls(Route::velocity, runs, rows, responses_of(runs), {});
-  REQUIRE(fit.noise->known());
+  REQUIRE(fit.noise().known());
   const auto plain = Model(observe(Route::velocity, read, rows, {}, {}), fit.model.parameters());
   const double of_white_noise =
       restricted_likelihood(evaluated(system_of(plain), fit.minimum.theta));

@@ -19,34 +19,31 @@ const Filters filters = std::make_shared<const BandMatrix>(E);
 
 }  // namespace
 
-// A straight line through data whose noise is E times white noise, with a share of white noise in
-// the weights. The covariance of the line is R^-1 B^T B R^-T whatever the weights are; the sum of
-// squares tells the variance where the weights are those of the noise.
+// A parabola through data behind E, so that their noise is E times white noise, with a share of
+// white noise in the weights. The covariance of its coefficients is R^-1 B^T B R^-T whatever the
+// weights are; the sum of squares tells the variance where the weights are those of the noise.
 TEST_CASE("noise: its variance and the covariance of the parameters", "[fit]") {
   for (const double share : {0.0, 1e-3, 0.1, 1.0, 30.0}) {
-    const auto noise = std::make_shared<const Noise>(std::vector{filters}, AddedNoise{share});
     simulated::Noise random(7);
     double variances = 0, squares = 0, covariance = 0;
     constexpr int runs = 2000;
     for (int k = 0; k < runs; ++k) {
-      std::vector<double> e, data;
-      for (std::size_t i = 0; i < n; ++i) e.push_back(random(2));
-      for (const double of_e : E.times(e)) data.push_back(3 + 0.5 * t[data.size()] + of_e);
+      std::vector<double> raw;
+      for (const double v : t) raw.push_back(3 + 0.5 * v + 0.7 * v * v + random(2));
       ObservedRun run;
-      run.column = Quantity::D, run.t = t, run.y = data;
-      Fitted fit{.minimum = {},
-                 .noise = noise,
-                 .model = Model(std::vector{run}, Parameters({}, 1).with(laws()[2], 1, 1, {}))};
+      run.column = Quantity::D, run.t = t, run.H = filters, run.y = E.times(raw);
+      const auto q = Parameters({}, 1).with(laws()[3], 1, 1, {3.0});  // E takes d0 away
+      Fitted fit{.minimum = {}, .model = Model(std::vector{run}, q).weighted({share})};
       fit.minimum = minimise(fit.system(), {0, 0});
       const Matrix Q = orthonormal(fit.system(), fit.minimum);
       const SeenNoise seen = seen_noise(fit, Q);
       variances += seen.variance / runs;
-      squares += (fit.minimum.theta[1] - 0.5) * (fit.minimum.theta[1] - 0.5) / runs;
+      squares += (fit.minimum.theta[1] - 0.7) * (fit.minimum.theta[1] - 0.7) / runs;
       if (k > 0) continue;
-      const std::vector<double> B = noise->to_sources(Q[1]);
+      const std::vector<double> B = fit.noise().to_sources(Q[1]);
       std::vector<double> slope{0, 1};
       fit.minimum.R.solve_transposed(0, slope);
-      REQUIRE(B.size() == noise->sources()[0]);
+      REQUIRE(B.size() == fit.noise().sources()[0]);
       for (const double of_slope : B) covariance += 4 * std::pow(of_slope * slope[1], 2);
       if (share == 0) CHECK(seen.B[1] == B);
     }
