@@ -245,8 +245,6 @@ Reader& read_task(Tool& tool, Task& task, const LawOptions& law) {
   Body& body = task.given;
   // A ledger uses no uncertainties: shifts of a body with the same values are of this body.
   for (const NumberOfBody& number : uncertain_numbers) body.*number.sigma = 0;
-  if (!task.height.empty())
-    tool.refuse({"slope"}, "does not go with --height, which has the slope");
   task.road = read_road(tool, task.height);
   body.road = task.road.get();
   const bool with_errors = task.has("sigma_D");

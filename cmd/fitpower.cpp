@@ -87,11 +87,9 @@ void refuse_runs(Tool& tool) {
 }
 
 /// Gives the bodies their road; refuses what needs one without it, and what does not go with one.
-void give_road(Tool& tool, Bodies& bodies, const Road* road, const FitOptions& options,
-               Route route) {
+void give_road(Tool& tool, Bodies& bodies, const Road* road, Route route) {
   for (Body& body : bodies.all) body.road = road;
   if (!road) return tool.refuse({"x0", "steepness"}, "goes with --height");
-  if (!options.fit_slope) tool.refuse({"slope"}, "does not go with --height, which has the slope");
   if (route != Route::velocity) tool.refuse({"x0"}, "is for runs of speeds: positions have it");
   if (!is_trajectory(route)) tool.refuse({"height"}, "is for the routes velocity and position");
 }
@@ -254,8 +252,8 @@ int fit_input(Tool& tool, Task& task) {
   if (options.v0 && !trajectory) fail<OptionError>("--fix: this route has no v0");
   if (options.x0 && route != Route::position) fail<OptionError>("--fix: this route has no x0");
 
-  const auto road = read_road(tool, task.bodies.height);
-  give_road(tool, task.bodies, road.get(), options, route);
+  const auto road = read_road(tool, task.bodies.height, options.fit_slope);
+  give_road(tool, task.bodies, road.get(), route);
   const bool needs_x = road && route == Route::velocity && task.bodies.begins.empty();
   options.fit_x0 = needs_x && !in.find("x");
   auto runs = read_runs(tool, in, route, needs_x && !options.fit_x0);

@@ -115,7 +115,6 @@ struct Task {
     law_of_file = run.empty() ? laws.front() : law_of(laws, run);
     roll.law = law_of_file.law;
     roll.body = law_of_file.body;
-    if (!height.empty()) tool.refuse({"slope"}, "does not go with --height, which has the slope");
     road = read_road(tool, height);
     roll.body.road = road.get();
     const auto take = [&](const char* option, double of_row, double& value) {

@@ -203,8 +203,9 @@ void add_height(Tool& tool, std::string& file) {
             "table of x and h: the height of the track along the way x of the body's centre");
 }
 
-std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file) {
+std::unique_ptr<const Road> read_road(Tool& tool, const std::string& file, bool fit_slope) {
   if (file.empty()) return {};
+  if (!fit_slope) tool.refuse({"slope"}, "does not go with --height, which has the slope");
   Reader& in = tool.read_file(file, {"x", "h"});
   const auto x = in.need("x");
   const auto h = in.need_as_is("h", "m");

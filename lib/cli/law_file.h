@@ -54,9 +54,10 @@ void add_options(Tool&, LawOptions&);
 /// Throws Error for a wind under a law that has no term for the drag of the air.
 void check_wind(const Body&, const Law&);
 
-/// --height, and the road of its table, x and h; none without a file.
+/// --height, and the road of its table, x and h; none without a file. Refuses a slope beside it
+/// that is not fitted.
 void add_height(Tool&, std::string& file);
-std::unique_ptr<const Road> read_road(Tool&, const std::string& file);
+std::unique_ptr<const Road> read_road(Tool&, const std::string& file, bool fit_slope = false);
 
 /// A law as a file tells it, and the body that rolls under it.
 struct LawOfFile {
