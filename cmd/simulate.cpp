@@ -140,9 +140,7 @@ struct Task {
       way = -1;
       roll.v0 *= way;
       roll.x0 *= way;
-      roll.body.slope *= way;
-      roll.body.wind *= way;
-      if (roll.body.road) roll.body.road = roll.body.road->mirrored();
+      roll.body = seen_along(roll.body, way);
     }
     if (!tool.on_command_line("method")) method = best_method(roll);
     if (road && !report) rtol = finest;

@@ -21,6 +21,13 @@ Incline incline(const Body& c, double x, double v) {
   return {all, sin / all};
 }
 
+Body seen_along(Body body, double way) {
+  body.slope *= way;
+  body.wind *= way;
+  if (way < 0 && body.road) body.road = body.road->mirrored();
+  return body;
+}
+
 void check_shift(const Body& c, double D) {
   if (!(std::abs(D) <= c.R)) fail("the shift D = {:.6g} m is beyond the radius {:.6g} m", D, c.R);
 }

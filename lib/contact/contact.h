@@ -24,6 +24,10 @@ inline Incline incline(const Body& c) {
 /// track.
 Incline incline(const Body&, double x, double v);
 
+/// The body as one sees it who looks along its motion, towards falling x if `way` is -1: slope,
+/// wind and road have the other direction then.
+Body seen_along(Body, double way);
+
 /// Throws Error if |D| > R, where the body has no point.
 void check_shift(const Body&, double D);
 

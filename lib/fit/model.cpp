@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/median.h"
-#include "contact/road.h"
 
 #include <algorithm>
 #include <array>
@@ -263,17 +262,14 @@ std::vector<ObservedRun> observe(Route route, const std::vector<Run>& all,
 }
 
 Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
-  Body body = parameters_.body(theta, runs()[run].body);
-  body.slope *= runs()[run].way;
-  body.wind *= runs()[run].way;
+  const double way = runs()[run].way;
+  const Body body = seen_along(parameters_.body(theta, runs()[run].body), way);
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
   if (!body.road) return {body, law, v0};
   // A search may come to such laws, under which a body in a hollow creeps: this takes seconds.
   if (law.at(parameters_.speed_unit()).D > body.R) fail("D is beyond the radius");
-  const double way = runs()[run].way;
-  if (way < 0) body.road = body.road->mirrored();
   const double x0 = parameters_.has_x0() ? parameters_.x0(theta, run) : runs()[run].x0;
   return {body, law, v0, way * x0};
 }

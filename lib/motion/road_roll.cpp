@@ -67,7 +67,7 @@ RoadRoll::Rate RoadRoll::rate(double u, double x, double way) const {
   const double cos = std::sqrt(cos2);
   const double curve = u * u / body_.g / cos;  // times h'' it adds to the cosine
   const double across = cos + curve * f * place.h2;
-  const auto [D, D_by_log_u] = law.at(u, r.a_p);
+  const auto [D, D_by_log_u] = law.at(u, r.a_p.data());
   const Acceleration now = accelerate(body_, D, {across, way * sin / across});
   r.N = across * body_.g;
   r.a = now.a;

@@ -24,7 +24,6 @@ namespace rolling {
 /// as rest.
 class RoadRoll : OdeSystem {
  public:
-  static constexpr std::size_t shared = LawForm::most + 3;  ///< of the law, slope, wind, steepness
   using Point = Leg::Point;
   /// From x0 with v0, which may be below 0, on body.road, whose heights are multiplied by
   /// body.steepness; with this error of a step. Errors as those of Leg, and where x0 is outside of
@@ -50,7 +49,7 @@ class RoadRoll : OdeSystem {
     double a;         // du/dt
     double a_u, a_x;  // its derivatives
     double N;
-    double a_p[shared];  // by the parameters
+    Leg::Derivatives a_p;  // by the parameters
   };
   /// A piece of the motion by one clock.
   struct Segment {

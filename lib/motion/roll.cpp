@@ -56,18 +56,10 @@ Roll::Roll(const Body& body, const Law& law, double v0, double x0, double tolera
   if (body.road) road_ = std::make_shared<RoadRoll>(body, law, v0, x0, tolerance);
 }
 
-/// Slope and wind as a body sees them that rolls in this direction.
-Body Roll::from_rest(double way) const {
-  Body body = body_;
-  body.slope *= way;
-  body.wind *= way;
-  return body;
-}
-
 /// True if the mat holds the body at rest, or at a speed that counts as rest, so that it does not
 /// begin to roll in this direction.
 bool Roll::holds(double way) const {
-  const Body body = from_rest(way);
+  const Body body = seen_along(body_, way);
   const Law law = law_.in_wind(body.wind);
   const auto balances = [&](double D) { return accelerate(body, D).a <= 0; };
   return balances(law.at_rest()) || balances(law.at(Leg::negligible * v0_).D);
@@ -77,7 +69,7 @@ bool Roll::holds(double way) const {
 Leg& Roll::back() {
   if (!back_) {
     const double first = first_part * (v0_ > 0 ? v0_ : std::sqrt(body_.g * body_.R));
-    back_.emplace(from_rest(way_on_), law_, first);
+    back_.emplace(seen_along(body_, way_on_), law_, first);
   }
   return *back_;
 }

@@ -72,7 +72,6 @@ class Roll {
   const Law& law() const { return law_; }  ///< in the wind
 
  private:
-  Body from_rest(double way) const;
   bool holds(double way) const;
   Leg& back();
 
