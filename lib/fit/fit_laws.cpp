@@ -8,9 +8,9 @@
 
 #include "base/matrix.h"
 #include "base/error.h"
-#include "fit/refits.h"
 #include "fit/routes.h"
 #include "fit/fitted.h"
+#include "fit/uncertainty.h"
 #include "statistics/residuals.h"
 
 namespace rolling {

@@ -28,11 +28,9 @@
 #include "noise/response.h"
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
-#include <span>
 #include <utility>
 
 namespace rolling {

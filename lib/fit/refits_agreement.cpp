@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "base/error.h"
 #include "fit/fitted.h"
@@ -18,11 +19,7 @@ namespace {
 
 /// ln a and b of a law, and their derivatives by its coefficients: of another law, of the v^b with
 /// the same D at this speed and at a quarter of it.
-struct LocalPower {
-  Pair law;
-  std::vector<Pair> by_c;
-};
-LocalPower local_power(const Fitted& fit, double v) {
+std::pair<Pair, std::vector<Pair>> local_power(const Fitted& fit, double v) {
   const Law law = fit.law();
   if (const auto power = law.power())
     return {{std::log(power->a), power->b}, {{1 / power->a, 0}, {0, 1}}};
@@ -34,10 +31,10 @@ LocalPower local_power(const Fitted& fit, double v) {
     const double b = (of_fast - of_slow) / std::log(4.0);
     return Pair{of_fast - b * std::log(v), b};
   };
-  LocalPower power{through(std::log(fast), std::log(slow)), {}};
+  std::vector<Pair> by_c;
   for (std::size_t j = 0; j < law.size(); ++j)
-    power.by_c.push_back(through(by_fast[j] / fast, by_slow[j] / slow));
-  return power;
+    by_c.push_back(through(by_fast[j] / fast, by_slow[j] / slow));
+  return {through(std::log(fast), std::log(slow)), by_c};
 }
 
 /// The laws of the runs that determine one, compared at speeds up to v.

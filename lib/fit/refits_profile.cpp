@@ -17,15 +17,8 @@
 namespace rolling {
 namespace {
 
-/// The raw columns of a fit at a few times of each run, and what they are if the model is linear
-/// around the minimum.
-struct FewRows {
-  System columns;
-  System linear;
-  bool without_mean;  // the filters have taken the mean of positions away
-};
-
-FewRows few_rows(const Fitted& fit) {
+/// The raw columns of a fit at a few times of each run.
+System few_rows(const Fitted& fit) {
   constexpr std::size_t few = 24;
   std::vector<ObservedRun> runs = fit.model.runs();
   for (ObservedRun& run : runs) {
@@ -38,22 +31,22 @@ FewRows few_rows(const Fitted& fit) {
     run.y.assign(rows, 0);
     run.H = {};
   }
-  const System columns = system_of(Model(std::move(runs), fit.parameters()));
-  return {columns, linearised(columns, fit.minimum.theta), fit.model.means_taken() > 0};
+  return system_of({std::move(runs), fit.parameters()});
 }
 
-/// The size of what is not linear on this step from the minimum, relative to what is. Throws Error
-/// if the model has no values there.
-double bend(const FewRows& rows, const std::vector<double>& minimum,
-            const std::vector<double>& step) {
-  const std::vector<double> here = evaluated(rows.columns, minimum).f;
-  const std::vector<double> ahead = evaluated(rows.linear, step).f;
-  const std::vector<double> there = evaluated(rows.columns, moved(minimum, step)).f;
+/// The size of what is not linear on this step from the minimum, relative to what is, in these
+/// columns. Throws Error if the model has no values there.
+double bend(const Fitted& fit, const System& columns, const std::vector<double>& step) {
+  const std::vector<double>& minimum = fit.minimum.theta;
+  const bool without_mean = fit.model.means_taken() > 0;  // filters took that of positions away
+  const std::vector<double> here = evaluated(columns, minimum).f;
+  const std::vector<double> ahead = evaluated(linearised(columns, minimum), step).f;
+  const std::vector<double> there = evaluated(columns, moved(minimum, step)).f;
   const auto squares = [&](std::vector<double> to, const std::vector<double>& from) {
     std::ranges::transform(to, from, to.begin(), std::minus());
-    for (const auto run : by_run(to, rows.columns.runs)) {
+    for (const auto run : by_run(to, columns.runs)) {
       double mean = 0;
-      if (rows.without_mean)
+      if (without_mean)
         mean = std::accumulate(run.begin(), run.end(), 0.0) / static_cast<double>(run.size());
       for (double& x : run) x -= mean;
     }
@@ -175,7 +168,7 @@ constexpr double normal = 1.96;  // the 95 % of a normal distribution lie within
 
 /// True if the number or the model is so far from linear over its interval that only fits can tell
 /// what the interval covers.
-bool in_doubt(const FewRows& rows, const Profile& profile) {
+bool in_doubt(const System& columns, const Profile& profile) {
   constexpr double rounding = 1e-7;  // a step in theta whose bend is not seen
   const Profile::Visit start = profile.start();
   const std::vector<double>& theta = start.minimum.theta;
@@ -184,7 +177,8 @@ bool in_doubt(const FewRows& rows, const Profile& profile) {
       if (relative_size(step, theta) < rounding) continue;
       const double there = profile.at(*start.fit, moved(theta, step)).value;
       const double off = (there - profile.value()) / change - 1;
-      if (!(std::abs(off) < levels::bent && bend(rows, theta, step) < levels::bent)) return true;
+      if (!(std::abs(off) < levels::bent && bend(*start.fit, columns, step) < levels::bent))
+        return true;
     } catch (const Error&) {  // there is no roll
       return true;
     }
@@ -255,7 +249,7 @@ std::vector<Interval> intervals_not_visited(const Fitted& of_all, const Uncertai
                                             const FitOptions& options) {
   std::vector<Interval> found;
   const std::size_t shared = of_all.coefficients.size() + of_all.scene.size();
-  const FewRows few = few_rows(of_all);
+  const System few = few_rows(of_all);
   std::vector<std::size_t> doubtful;
   for (std::size_t j = 0; j < shared; ++j) {
     const double sigma = std::sqrt(noise.covariance[j][j]);

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
-#include "base/golden_section.h"
 #include "base/matrix.h"
 #include "base/median.h"
 #include "fit/uncertainty.h"

@@ -62,6 +62,15 @@ std::vector<double> speeds_of(const ObservedRun& run, const FitOptions& options)
   return speeds;
 }
 
+/// The places of the rows; of speeds, which tell no place, those of a run that begins at 0.
+std::vector<double> places_of(const ObservedRun& run) {
+  if (run.column == Quantity::x) return run.y;
+  std::vector<double> x(run.t.size());
+  for (std::size_t i = 1; i < x.size(); ++i)
+    x[i] = x[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+  return x;
+}
+
 /// A run reduced to at most 64 block means, without a long rest at its end.
 struct Thinned {
   ObservedRun run;
@@ -78,13 +87,9 @@ struct Thinned {
 
 Thinned thinned(const ObservedRun& run, const FitOptions& options) {
   const std::size_t n = run.t.size();
-  const bool position = run.column == Quantity::x;
-  const double x0 = options.x0.value_or(position ? run.y[0] : 0);
-  std::vector<double> way(n);
-  for (std::size_t i = 0; i < n; ++i)
-    if (position) way[i] = run.way * (run.y[i] - x0);
-    else if (i)
-      way[i] = way[i - 1] + run.way * (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
+  const double x0 = run.column == Quantity::x ? options.x0.value_or(run.y[0]) : 0;
+  std::vector<double> way = places_of(run);
+  for (double& x : way) x = run.way * (x - x0);
   const double most = std::max(0.0, std::ranges::max(way));
   if (most == 0 && std::ranges::min(way) < 0) refuse_way_back(run);  // beyond its beginning
   // The way back of a body that turns is used as well, and may be slow.
@@ -192,10 +197,7 @@ Fitted of_means(Fitted fit, const FitOptions& options) {
 namespace {
 
 /// Place and speed at an end of a run, by a parabola through its rows there. `x` are their places.
-struct EndOfRun {
-  double x, v;
-};
-EndOfRun end_of(const ObservedRun& run, const std::vector<double>& x, bool first) {
+std::pair<double, double> end_of(const ObservedRun& run, const std::vector<double>& x, bool first) {
   const std::size_t n = run.t.size();
   const std::size_t rows = std::min<std::size_t>(n, 9);
   const std::size_t from = first ? 0 : n - rows;
@@ -210,14 +212,6 @@ EndOfRun end_of(const ObservedRun& run, const std::vector<double>& x, bool first
   const std::vector<double> c = R.solve();
   if (run.column != Quantity::x) return {first ? x.front() : x.back(), c[0]};
   return {c[0], c.size() > 1 ? c[1] : 0};
-}
-
-/// The way from the beginning, of speeds.
-std::vector<double> way_from_begin(const ObservedRun& run) {
-  std::vector<double> way(run.t.size());
-  for (std::size_t i = 1; i < way.size(); ++i)
-    way[i] = way[i - 1] + (run.y[i] + run.y[i - 1]) / 2 * (run.t[i] - run.t[i - 1]);
-  return way;
 }
 
 /// How far the energy of these speeds is from that under a law d0 + d2 v^2, if they begin at x0:
@@ -244,7 +238,7 @@ double unevenness(const ObservedRun& run, const std::vector<double>& way, double
 
 /// Where speeds begin on their road, by their energy. Throws Error if other places are as likely.
 double likely_begin(const ObservedRun& run) {
-  const std::vector<double> way = way_from_begin(run);
+  const std::vector<double> way = places_of(run);
   const auto [least, greatest] = std::ranges::minmax(way);
   const std::vector<double>& points = run.body.road->points();
   const double room = points.back() - points.front() - (greatest - least);
@@ -276,16 +270,16 @@ EvenRoll even_roll_on_road(const std::vector<ObservedRun>& runs) {
   double lost = 0;
   double all = 0;  // the way, in units of R
   for (const ObservedRun& run : runs) {
-    std::vector<double> x = position ? run.y : way_from_begin(run);
-    for (std::size_t i = 0; i < x.size() && !position; ++i) x[i] += run.x0;
-    const EndOfRun begin = end_of(run, x, true);
-    const EndOfRun end = end_of(run, x, false);
-    even.v0.push_back(run.way * begin.v);
-    even.x0.push_back(begin.x);
-    const auto energy = [&](const EndOfRun& at) {
-      return (1 + run.body.K) / 2 * at.v * at.v / run.body.g + run.body.road->at(at.x).h;
+    std::vector<double> x = places_of(run);
+    for (double& place : x) place += position ? 0 : run.x0;
+    const auto [x_begin, v_begin] = end_of(run, x, true);
+    const auto [x_end, v_end] = end_of(run, x, false);
+    even.v0.push_back(run.way * v_begin);
+    even.x0.push_back(x_begin);
+    const auto energy = [&](double place, double v) {
+      return (1 + run.body.K) / 2 * v * v / run.body.g + run.body.road->at(place).h;
     };
-    lost += energy(begin) - energy(end);
+    lost += energy(x_begin, v_begin) - energy(x_end, v_end);
     for (std::size_t i = 1; i < x.size(); ++i) all += std::abs(x[i] - x[i - 1]) / run.body.R;
     even.time += run.t.back();
   }
