@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -63,13 +64,9 @@ void refuse_start_over(std::span<const Sample> run) {
       before.y, after.y, after.t);
 }
 
-struct Found {
-  std::vector<FreeRoll> rolls;
-  double noise;  ///< of the means
-};
-
-/// The rolls in the means of equal numbers of samples.
-Found rolls_in_means(std::span<const Sample> run, bool positions) {
+/// The rolls in the means of equal numbers of samples, and the noise of these means.
+std::pair<std::vector<FreeRoll>, double> rolls_in_means(std::span<const Sample> run,
+                                                        bool positions) {
   const std::size_t size = size_of_means(run.size());
   constexpr double off = 6;  // standard errors
   std::vector<double> y;     // of the first sample of each mean
@@ -101,18 +98,18 @@ Found rolls_in_means(std::span<const Sample> run, bool positions) {
   const Means of_rows = means_of_rows(samples);
   const double noise =
       std::max(noise_of(samples, positions, std::ldexp(step, -units.y)), of_rows.noise);
-  Found found{search_rolls(samples, positions, noise, of_rows.rows), std::ldexp(noise, units.y)};
+  std::vector<FreeRoll> rolls = search_rolls(samples, positions, noise, of_rows.rows);
   const auto of_run = [&](const Stretch& s) {
     const std::size_t begin = index[s.begin];
     const std::size_t end = s.end == samples.size() ? run.size() : index[s.end - 1] + size;
     return Stretch{begin, end, run[begin].t, run[end - 1].t};
   };
-  for (FreeRoll& roll : found.rolls) {
+  for (FreeRoll& roll : rolls) {
     roll.kept = of_run(roll.kept);
     if (roll.other) roll.other = of_run(*roll.other);
     roll.after = std::ldexp(roll.after, units.t) + run[0].t;
   }
-  return found;
+  return {std::move(rolls), std::ldexp(noise, units.y)};
 }
 
 /// The samples that two stretches share, or less than 0.
@@ -132,7 +129,7 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
     const std::size_t to = std::min(roll.kept.end + around, run.size());
     if (to - from > n / 2) return;
     n = to - from;
-    std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions).rolls;
+    std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions).first;
     if (found.empty()) return;  // finer means are noisier
     for (FreeRoll& of : found) {
       of.kept.begin += from;
@@ -153,14 +150,14 @@ std::vector<FreeRoll> rolls_of(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
   refuse_spikes(run, 0.12);
   if (positions) refuse_start_over(run);
-  Found found = rolls_in_means(run, positions);
-  if (!found.rolls.empty()) return found.rolls;
+  const auto [rolls, noise] = rolls_in_means(run, positions);
+  if (!rolls.empty()) return rolls;
   refuse_spikes(run, 0.02);
   const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
   fail<NoFreeRoll>(
       "no free roll is found: the readings go from {:.4g} to {:.4g}, and no slowing down is long "
       "enough, or above their noise of {:.1g}",
-      low.y, high.y, found.noise);
+      low.y, high.y, noise);
 }
 
 }  // namespace

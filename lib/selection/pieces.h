@@ -71,10 +71,9 @@ class Piece {
       fit_.add(s.t - middle(), s.y / noise_);
     order = cost_of(fit_, most_coefficients(positions), samples.size()).second;
   }
-  using Value = Polynomial<4>::Estimate;
-  Value y(double t) const { return derivative(0, t); }
-  Value v(double t) const { return derivative(speed_, t); }
-  Value a(double t) const { return derivative(speed_ + 1, t); }
+  Estimate y(double t) const { return derivative(0, t); }
+  Estimate v(double t) const { return derivative(speed_, t); }
+  Estimate a(double t) const { return derivative(speed_ + 1, t); }
   double rss() const { return fit_.rss(order); }
   double middle() const { return std::midpoint(from, to); }
   double duration() const { return to - from; }
@@ -88,9 +87,9 @@ class Piece {
   std::size_t order;  ///< number of coefficients
 
  private:
-  Value derivative(std::size_t k, double t) const {
+  Estimate derivative(std::size_t k, double t) const {
     const auto e = fit_.derivative(k, t - middle(), order);
-    return {noise_ * e.value, noise_ * e.error};
+    return {noise_ * e.value, noise_ * e.sigma};
   }
 
   Polynomial<4> fit_;

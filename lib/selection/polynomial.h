@@ -6,7 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/estimate.h"
+
 namespace rolling {
+
+/// True if a number is far from 0 for its error.
+inline bool is_known(const Estimate& x) { return std::abs(x.value) > 3 * x.sigma; }
 
 /// The polynomial of P coefficients that is nearest to readings of equal weight. Givens rotations
 /// of the rows (1, u, u^2, ... | y) update the triangular factor: no normal equations, whose
@@ -45,11 +50,6 @@ class Polynomial {
 
   /// A derivative at u, and its standard error for readings of standard deviation 1; infinite if
   /// the readings do not determine the polynomial.
-  struct Estimate {
-    double value, error;
-
-    bool is_known() const { return std::abs(value) > 3 * error; }
-  };
   Estimate derivative(std::size_t order, double u, std::size_t size = P) const {
     if (size_ < size) return {0, INFINITY};
     std::array<double, P> w{};  // R^T w = d/du^order (1, u, u^2, ...)

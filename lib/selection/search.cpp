@@ -37,7 +37,7 @@ class Search {
     for (const auto& p : pieces_)
       for (const double t : {p.from, p.middle(), p.to})
         if (const auto v = p.v(t); !p.is_short())
-          fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.error);
+          fastest_ = std::max(fastest_, std::abs(v.value) - 3 * v.sigma);
   }
 
   /// The rolls that slow down alike, the longest first; it knows another stretch that may be meant.
@@ -79,7 +79,7 @@ class Search {
     const auto v = p.v(t);
     const auto driven = p.v(p.to);
     const double rise = std::abs(driven.value) - std::abs(v.value);
-    if (v.value * driven.value <= 0 || rise < 4 * std::hypot(v.error, driven.error)) return;
+    if (v.value * driven.value <= 0 || rise < 4 * std::hypot(v.sigma, driven.sigma)) return;
     std::size_t joint = begin;
     while (samples_[joint].t < t) ++joint;
     if (std::min(joint - begin, end - joint) < 5) return;
@@ -99,7 +99,7 @@ class Search {
         const Piece& p = pieces_[i];
         const double t = std::lerp(p.from, p.to, part);
         const double v = p.v(t).value;
-        if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v), p.a(t).error});
+        if (!p.is_short()) law.push_back({std::abs(v), -p.a(t).value * sign(v), p.a(t).sigma});
       }
     std::ranges::sort(law, {}, &Slowing::v);
     return law;
@@ -159,7 +159,7 @@ class Search {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& p = pieces_[i];
       const auto a = p.a(p.middle());
-      if (p.is_short() && std::abs(a.value) < 20 * a.error) continue;
+      if (p.is_short() && std::abs(a.value) < 20 * a.sigma) continue;
       if (!chains.empty() && continues(pieces_[chains.back().last], p)) chains.back().last = i;
       else if (!p.is_short() && is_roll(p)) chains.push_back({i, i});
     }
@@ -193,14 +193,14 @@ class Search {
     const auto v1 = p.v(p.to);
     const auto v = p.v(p.middle());
     const auto a = p.a(p.middle());
-    if (!(std::abs(a.value) > 4 * a.error)) return false;
-    if (v0.value * v1.value < 0 && v0.is_known() && comes_back(p, sign(a.value)))
+    if (!(std::abs(a.value) > 4 * a.sigma)) return false;
+    if (v0.value * v1.value < 0 && is_known(v0) && comes_back(p, sign(a.value)))
       return v0.value * a.value < 0 && std::abs(v1.value) < 1.1 * std::abs(v0.value);
-    return v.value * a.value < 0 && v.is_known() && std::abs(v.value) > 0.03 * fastest_;
+    return v.value * a.value < 0 && is_known(v) && std::abs(v.value) > 0.03 * fastest_;
   }
   bool comes_back(const Piece& p, double way) const {
     const auto v = p.v(p.to);
-    if (!v.is_known()) return false;
+    if (!is_known(v)) return false;
     if (!positions_) return v.value * way > 0.15 * fastest_;
     return v.value * way > 0.03 * fastest_ && stands_out(p, p);
   }
@@ -212,7 +212,7 @@ class Search {
     if (b.from - a.to > std::min(a.duration(), b.duration())) return false;
     const double t = std::midpoint(a.to, b.from);
     const auto jump = [](auto p, auto q) { return std::abs(p.value - q.value); };
-    const auto error = [](auto p, auto q) { return std::hypot(p.error, q.error); };
+    const auto error = [](auto p, auto q) { return std::hypot(p.sigma, q.sigma); };
     const auto va = a.v(t);
     const auto vb = b.v(t);
     const auto ma = a.a(a.middle());
@@ -221,10 +221,10 @@ class Search {
     const double way = sign(ma.value);
     // On a slight slope the way back is steady: D is as large as the slope allows.
     const bool turns = va.value * way > -0.25 * fastest_ && comes_back(b, way);
-    if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.error)) return false;
+    if (!(ratio > 0) && !(turns && std::abs(mb.value) <= 3 * mb.sigma)) return false;
     if (jump(va, vb) > 4 * error(va, vb) + (turns ? 0.1 : 0.03) * fastest_) return false;
     if (turns) return ratio < 1.2;  // D is against the motion on both ways
-    const bool stops = mb.is_known() && std::abs(b.v(b.to).value) < 0.03 * fastest_;
+    const bool stops = is_known(mb) && std::abs(b.v(b.to).value) < 0.03 * fastest_;
     if (va.value * way < 0 && !stops && !is_roll(b)) return false;
     const auto ea = a.a(a.to);
     const auto eb = b.a(b.from);
@@ -239,14 +239,14 @@ class Search {
   bool is_slow(const Chain& c) const {
     const Piece& last = pieces_[c.last];
     const auto v = last.v(last.to);
-    return std::abs(v.value) < std::max(3 * v.error, slow * c.fastest);
+    return std::abs(v.value) < std::max(3 * v.sigma, slow * c.fastest);
   }
 
   FreeRoll::End end_of(const Chain& c) const {
     const Piece& last = pieces_[c.last];
     if (last.end == samples_.size()) return FreeRoll::End::goes_on;
     const auto back = last.v(last.middle());
-    if (back.is_known() && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
+    if (is_known(back) && back.value * pieces_[c.first].v(pieces_[c.first].from).value < 0)
       return FreeRoll::End::is_ended;
     return is_slow(c) ? FreeRoll::End::by_itself : FreeRoll::End::is_ended;
   }
@@ -314,7 +314,7 @@ class Search {
     if (pieces_[c.last].end == samples_.size()) return false;
     const Piece& next = pieces_[c.last + 1];
     const auto a = next.a(next.middle());
-    return a.is_known() && a.value * next.v(next.middle()).value > 0;
+    return is_known(a) && a.value * next.v(next.middle()).value > 0;
   }
   /// The end of the roll in the last piece before the body is driven: it may have been held at its
   /// last speed for a moment. If a fifth of the piece could be that, the readings say nothing.
@@ -372,7 +372,7 @@ class Search {
   /// The same for the end of a push of the duration T, whose force fades: its speed is
   /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
   double unseen_push(const Piece& push, const Piece& roll) const {
-    if (!push.a(push.middle()).is_known()) return 0;
+    if (!is_known(push.a(push.middle()))) return 0;
     const double v = std::abs(roll.v(roll.from).value);
     const double T = push.duration();
     const double share = 2 * noise_ / v;
