@@ -56,8 +56,14 @@ double pasco_slope(const Windows& window) {
 
 }  // namespace
 
-WindowedSignal central_derivative() { return {{3, 0}, Windows::Ends::stay, central_slope}; }
-WindowedSignal vernier_derivative() { return {{7, 0}, Windows::Ends::cut, vernier_slope}; }
-WindowedSignal pasco_derivative() { return {{5, 0}, Windows::Ends::cut, pasco_slope}; }
+std::unique_ptr<Signal> central_derivative() {
+  return windowed({3, 0}, Windows::Ends::stay, [](const Windows& w) { return central_slope(w); });
+}
+std::unique_ptr<Signal> vernier_derivative() {
+  return windowed({7, 0}, Windows::Ends::cut, [](const Windows& w) { return vernier_slope(w); });
+}
+std::unique_ptr<Signal> pasco_derivative() {
+  return windowed({5, 0}, Windows::Ends::cut, [](const Windows& w) { return pasco_slope(w); });
+}
 
 }  // namespace rolling

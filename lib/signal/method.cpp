@@ -5,7 +5,6 @@
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <utility>
 
 #include "base/error.h"
 #include "signal/derivative.h"
@@ -18,26 +17,20 @@ namespace {
 
 using Options = const SignalOptions&;
 
-template <typename Filter>
-std::unique_ptr<Signal> kept(Filter filter) {
-  return std::make_unique<Filter>(std::move(filter));
-}
-
 constexpr std::size_t whole_run = std::numeric_limits<std::size_t>::max();
 
 // The spline is not linear, because its parameter depends on the readings.
 constexpr SignalMethod all[] = {
     // name, reach, linear, shift-invariant, has an order, make
-    {"mean", 0, true, true, false, [](Options o) { return kept(moving_mean(o.width)); }},
-    {"median", 0, false, false, false, [](Options o) { return kept(moving_median(o.width)); }},
-    {"savgol", 0, true, false, true,
-     [](Options o) { return kept(savitzky_golay(o.width, o.order, 0)); }},
-    {"central", 1, true, false, false, [](Options) { return kept(central_derivative()); }},
-    {"savgol", 0, true, false, true,
-     [](Options o) { return kept(savitzky_golay(o.width, o.order, 1)); }},
-    {"spline", whole_run, false, false, false, [](Options) { return kept(SplineDerivative()); }},
-    {"vernier", 3, true, false, false, [](Options) { return kept(vernier_derivative()); }},
-    {"pasco", 2, true, false, false, [](Options) { return kept(pasco_derivative()); }},
+    {"mean", 0, true, true, false, [](Options o) { return moving_mean(o.width); }},
+    {"median", 0, false, false, false, [](Options o) { return moving_median(o.width); }},
+    {"savgol", 0, true, false, true, [](Options o) { return savitzky_golay(o.width, o.order, 0); }},
+    {"central", 1, true, false, false, [](Options) { return central_derivative(); }},
+    {"savgol", 0, true, false, true, [](Options o) { return savitzky_golay(o.width, o.order, 1); }},
+    {"spline", whole_run, false, false, false,
+     [](Options) -> std::unique_ptr<Signal> { return std::make_unique<SplineDerivative>(); }},
+    {"vernier", 3, true, false, false, [](Options) { return vernier_derivative(); }},
+    {"pasco", 2, true, false, false, [](Options) { return pasco_derivative(); }},
 };
 
 }  // namespace

@@ -87,18 +87,19 @@ class ExactSum {
 
 /// Each mean is within 1 ulp of the exact mean of its window, independent of earlier readings.
 /// Throws Error for an even width.
-inline WindowedSignal moving_mean(Width width) {
-  return {width, Windows::Ends::shrink, [sum = Sliding<ExactSum>()](const Windows& window) mutable {
-            return sum.of(window).over(window.size());
-          }};
+inline std::unique_ptr<Signal> moving_mean(Width width) {
+  const auto value = [sum = Sliding<ExactSum>()](const Windows& window) mutable {
+    return sum.of(window).over(window.size());
+  };
+  return windowed(width, Windows::Ends::shrink, value);
 }
 
 /// Throws Error for an even width.
-inline WindowedSignal moving_median(Width width) {
-  return {width, Windows::Ends::shrink,
-          [sorted = Sliding<SortedWindow>()](const Windows& window) mutable {
+inline std::unique_ptr<Signal> moving_median(Width width) {
+  const auto value = [sorted = Sliding<SortedWindow>()](const Windows& window) mutable {
     return sorted.of(window).median();
-          }};
+  };
+  return windowed(width, Windows::Ends::shrink, value);
 }
 
 }  // namespace rolling

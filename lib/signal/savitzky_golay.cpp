@@ -73,12 +73,12 @@ class LocalPolynomial {
 
 }  // namespace
 
-WindowedSignal savitzky_golay(Width width, std::size_t order, std::size_t derivative) {
+std::unique_ptr<Signal> savitzky_golay(Width width, std::size_t order, std::size_t derivative) {
   const auto value = [=, polynomial = LocalPolynomial()](const Windows& window) mutable {
     if (derivative == 1) require_slope(window.size());
     return polynomial(window, order)[derivative];
   };
-  WindowedSignal filter(width, Windows::Ends::stay, value);
+  auto filter = windowed(width, Windows::Ends::stay, value);
   if (order > most_order) fail("a polynomial of order {}: at most {}", order, most_order);
   if (width.seconds == 0 && order >= width.samples)
     fail("a polynomial of order {} needs a window of more than {} samples", order, width.samples);

@@ -16,6 +16,6 @@ inline constexpr std::size_t most_order = 10;
 /// value or its slope. Throws Error for an even width, an order above most_order, and an order that
 /// needs more samples than the width has; and, while it filters, for the slope in a window of one
 /// sample.
-WindowedSignal savitzky_golay(Width, std::size_t order, std::size_t derivative);
+std::unique_ptr<Signal> savitzky_golay(Width, std::size_t order, std::size_t derivative);
 
 }  // namespace rolling

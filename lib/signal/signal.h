@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,11 +39,10 @@ inline void require_slope(std::size_t samples) {
   if (samples == 1) fail("a run of one row has no derivative");
 }
 
-/// A filter whose output is a function of the window around each sample.
+/// A filter whose output is a function of the window around each sample: value(const Windows&).
+template <typename Value>
 class WindowedSignal : public Signal {
  public:
-  using Value = std::function<double(const Windows&)>;
-  /// Throws Error for an even width.
   WindowedSignal(Width width, Windows::Ends ends, Value value)
       : windows_(width, ends), value_(std::move(value)) {}
 
@@ -67,5 +66,11 @@ class WindowedSignal : public Signal {
   Value value_;
   std::vector<double> known_;
 };
+
+/// Throws Error for an even width.
+template <typename Value>
+std::unique_ptr<Signal> windowed(Width width, Windows::Ends ends, Value value) {
+  return std::make_unique<WindowedSignal<Value>>(width, ends, std::move(value));
+}
 
 }  // namespace rolling

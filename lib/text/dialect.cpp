@@ -102,8 +102,8 @@ std::string quoted(std::string_view text) {
 
 void append_field(Bytes& line, std::string_view field) {
   const auto is_special = [](char c) { return c == quote || c == '\t' || c == '\n'; };
-  if (field.starts_with('#') || std::ranges::any_of(field, is_special)) line.append(quoted(field));
-  else line.append(field);
+  if (!field.starts_with('#') && std::ranges::none_of(field, is_special)) return line.append(field);
+  for (const char c : quoted(field)) line.push_back(c);
 }
 
 bool Dialect::choose(std::string_view line, bool tabs) {

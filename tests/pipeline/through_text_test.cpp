@@ -21,8 +21,7 @@ using namespace rolling;
 
 namespace {
 
-template <typename Signal>
-std::vector<double> through(Signal signal, const std::vector<double>& t,
+std::vector<double> through(Signal& signal, const std::vector<double>& t,
                             const std::vector<double>& y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < t.size(); ++i)
@@ -47,8 +46,8 @@ TEST_CASE(
     text += fmt::format("{}\t{}\n", t.back(), v.back());
   }
   const Body body{1, 0.04, 0.83};
-  const std::vector<double> smooth = through(moving_mean({.samples = 11, .seconds = 0}), t, v),
-                            a = through(central_derivative(), t, smooth);
+  const std::vector<double> smooth = through(*moving_mean({.samples = 11, .seconds = 0}), t, v),
+                            a = through(*central_derivative(), t, smooth);
 
   const TemporaryFile file(text);
   const std::string command = "smooth " + file.name() +

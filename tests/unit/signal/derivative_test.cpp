@@ -16,11 +16,11 @@ using namespace rolling;
 namespace {
 
 std::vector<double> differentiated(const std::vector<double>& t, const std::vector<double>& y) {
-  WindowedSignal derivative = central_derivative();
+  const auto derivative = central_derivative();
   std::vector<double> out;
   for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : derivative.push(t[i], y[i])) out.push_back(value);
-  for (const double value : derivative.finish()) out.push_back(value);
+    for (const double value : derivative->push(t[i], y[i])) out.push_back(value);
+  for (const double value : derivative->finish()) out.push_back(value);
   return out;
 }
 
@@ -117,12 +117,12 @@ TEST_CASE("derivative: two samples have one slope, one sample has none", "[signa
 }
 
 TEST_CASE("derivative: each is known one sample later", "[signal]") {
-  WindowedSignal derivative = central_derivative();
-  CHECK(derivative.push(0, 0).empty());
-  CHECK(derivative.push(1, 1).empty());
-  CHECK(derivative.push(2, 4).size() == 2);
-  CHECK(derivative.push(3, 9).size() == 1);
-  CHECK(derivative.finish().size() == 1);
+  const auto derivative = central_derivative();
+  CHECK(derivative->push(0, 0).empty());
+  CHECK(derivative->push(1, 1).empty());
+  CHECK(derivative->push(2, 4).size() == 2);
+  CHECK(derivative->push(3, 9).size() == 1);
+  CHECK(derivative->finish().size() == 1);
 }
 
 TEST_CASE("derivative: a shift of the time axis by a power of two changes no bit", "[signal]") {

@@ -23,11 +23,11 @@ Series even_times(std::size_t n) {
 }
 
 Series smoothed(const Series& t, const Series& y, Width window) {
-  WindowedSignal mean = moving_mean(window);
+  const auto mean = moving_mean(window);
   Series out;
   for (std::size_t i = 0; i < t.size(); ++i)
-    for (const double value : mean.push(t[i], y[i])) out.push_back(value);
-  for (const double value : mean.finish()) out.push_back(value);
+    for (const double value : mean->push(t[i], y[i])) out.push_back(value);
+  for (const double value : mean->finish()) out.push_back(value);
   return out;
 }
 
@@ -164,21 +164,21 @@ TEST_CASE("moving_mean: rounding of the times does not decide a window of second
 }
 
 TEST_CASE("moving_mean: a mean is known as soon as its window is", "[signal]") {
-  WindowedSignal mean = moving_mean({5, 0});
-  CHECK(mean.push(0, 1).size() == 1);  // the first is its own window
-  CHECK(mean.push(1, 1).empty());
-  CHECK(mean.push(2, 1).size() == 1);
-  CHECK(mean.push(3, 1).empty());
-  for (int i = 4; i < 50; ++i) CHECK(mean.push(i, 1).size() == 1);
-  CHECK(mean.finish().size() == 2);
-  WindowedSignal seconds = moving_mean({0, 2});
-  CHECK(seconds.push(0, 1).size() == 1);
-  CHECK(seconds.push(1, 1).empty());
-  CHECK(seconds.push(1.5, 1).size() ==
+  const auto mean = moving_mean({5, 0});
+  CHECK(mean->push(0, 1).size() == 1);  // the first is its own window
+  CHECK(mean->push(1, 1).empty());
+  CHECK(mean->push(2, 1).size() == 1);
+  CHECK(mean->push(3, 1).empty());
+  for (int i = 4; i < 50; ++i) CHECK(mean->push(i, 1).size() == 1);
+  CHECK(mean->finish().size() == 2);
+  const auto seconds = moving_mean({0, 2});
+  CHECK(seconds->push(0, 1).size() == 1);
+  CHECK(seconds->push(1, 1).empty());
+  CHECK(seconds->push(1.5, 1).size() ==
         1);  // one on each side of 1 s: more to come on the right could not be matched on the left
-  CHECK(seconds.push(2, 1).size() == 1);
-  CHECK(seconds.push(9, 1).size() == 2);  // nothing within a second of it
-  CHECK(seconds.finish().empty());
+  CHECK(seconds->push(2, 1).size() == 1);
+  CHECK(seconds->push(9, 1).size() == 2);  // nothing within a second of it
+  CHECK(seconds->finish().empty());
 }
 
 TEST_CASE("moving_mean: an even width is refused", "[signal]") {
@@ -210,7 +210,7 @@ double largest_error_in_ulps(std::size_t rows) {
         return 0.1;
     }
   };
-  WindowedSignal mean = moving_mean({width, 0});
+  const auto mean = moving_mean({width, 0});
   std::vector<double> y;  // the last `width`
   double largest = 0;
   std::size_t known = 0;
@@ -230,7 +230,7 @@ double largest_error_in_ulps(std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     if (y.size() == width) y.erase(y.begin());
     y.push_back(sample(i));
-    for (const double value : mean.push(static_cast<double>(i), y.back())) judge(value);
+    for (const double value : mean->push(static_cast<double>(i), y.back())) judge(value);
   }
   return known + half == rows ? largest : std::numeric_limits<double>::infinity();
 }

@@ -10,7 +10,7 @@ using namespace rolling;
 namespace {
 
 Series medians(const Series& t, const Series& y, Width width) {
-  return through(moving_median(width), t, y);
+  return through(*moving_median(width), t, y);
 }
 Series medians(const Series& y, std::size_t width) {
   return medians(even_times(y.size()), y, {width, 0});

@@ -15,7 +15,7 @@ constexpr std::size_t value = 0, slope = 1;  // the derivatives
 
 Series filtered(const Series& t, const Series& y, std::size_t width, std::size_t order,
                 std::size_t what) {
-  return through(savitzky_golay({width, 0}, order, what), t, y);
+  return through(*savitzky_golay({width, 0}, order, what), t, y);
 }
 
 /// The weights of the middle of a run on even times with step 1: what the filter makes of an
@@ -212,8 +212,8 @@ TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change 
   const Series t = uneven_times(50), y = noise(50, 9);
   for (const Width width : {Width{9, 0}, Width{0, 0.5}}) {
     for (const auto what : {value, slope}) {
-      const auto ahead = through(savitzky_golay(width, 2, what), t, y);
-      const auto back = through(savitzky_golay(width, 2, what), backwards(t, -1), backwards(y));
+      const auto ahead = through(*savitzky_golay(width, 2, what), t, y);
+      const auto back = through(*savitzky_golay(width, 2, what), backwards(t, -1), backwards(y));
       check_close(backwards(back, what == slope ? -1 : 1), ahead, 1e-11);
     }
   }
@@ -221,7 +221,7 @@ TEST_CASE("savitzky_golay: time reversed, values are the same and slopes change 
 
 TEST_CASE("savitzky_golay: windows of seconds are those of samples on even times", "[signal]") {
   const Series t = even_times(100), y = noise(100, 1);
-  check_close(through(savitzky_golay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value),
+  check_close(through(*savitzky_golay({0, 0.4}, 2, value), t, y), filtered(t, y, 11, 2, value),
               1e-12);
 }
 
@@ -238,9 +238,9 @@ TEST_CASE("savitzky_golay: few samples", "[signal]") {
 }
 
 TEST_CASE("savitzky_golay: a number is known half a window later", "[signal]") {
-  WindowedSignal filter = savitzky_golay({5, 0}, 2, value);
-  for (int i = 0; i < 4; ++i) CHECK(filter.push(i, 1).empty());
-  CHECK(filter.push(4, 1).size() == 3);
-  for (int i = 5; i < 50; ++i) CHECK(filter.push(i, 1).size() == 1);
-  CHECK(filter.finish().size() == 2);
+  const auto filter = savitzky_golay({5, 0}, 2, value);
+  for (int i = 0; i < 4; ++i) CHECK(filter->push(i, 1).empty());
+  CHECK(filter->push(4, 1).size() == 3);
+  for (int i = 5; i < 50; ++i) CHECK(filter->push(i, 1).size() == 1);
+  CHECK(filter->finish().size() == 2);
 }

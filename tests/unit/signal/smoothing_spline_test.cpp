@@ -178,7 +178,7 @@ TEST_CASE(
       bound.push_back(line + 0.001 * (e[i + 2] - e[i]));  // as after a central difference
     }
     for (const Series& y : {white, bound}) {
-      const auto s = slopes(t, y), raw = through(central_derivative(), t, y);
+      const auto s = slopes(t, y), raw = through(*central_derivative(), t, y);
       double sum = 0, rough = 0;
       for (std::size_t i = 5; i + 5 < n; ++i)
         sum += std::pow(s[i] - 0.5 + 0.06 * t[i], 2),
