@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cli/doubts.h"
 #include "cli/history.h"
 #include "cli/law_file.h"
 #include "cli/quantities.h"
@@ -186,6 +187,9 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
     const LawOfFile& law = law_of(task.laws, run);
     Body body = task.uses_law ? law.body : body_of_shifts(tool, in, law.body);
     body.m = mass_of_run(task, in, runs++);
+    if (is_hardly_so_heavy(body))
+      tool.object(run, fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}",
+                                   body.m, body.R, body.m / 1000));
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
     if (pipe)
       pipe->set_history("energy-ledger " + (task.uses_law ? words_of(law.law) : "D") +
@@ -213,7 +217,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
     if ((task.summary || tool.checks) && std::isnan(balance.energy.closure())) {
       tool.say(in.run_name(),
                "the body has as much energy at the end of the run as at its start: there is no "
-               "closure");
+               "closure; choose the free roll: smooth --coast");
       without_closure = true;
     }
     if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
@@ -289,15 +293,19 @@ int main(int argc, char** argv) {
   tool.flag("--summary", task.summary,
             "print one row for each run: energy at the start and end, energy dissipated, closure "
             "and imbalance");
-  tool.number("--check", task.tolerance, {"from 0 to 1", [](double x) { return x >= 0 && x <= 1; }},
-              "exit with 1 if |closure| or the imbalance is above this share (5 % is 0.05)");
+  tool.add("--check", "NUMBER",
+           "exit with 1 if |closure| or the imbalance is above this share (5 % is 0.05)",
+           [&](const std::string& share) {
+    const Domain domain{"from 0 to 1", [](double x) { return x >= 0 && x <= 1; }};
+    task.tolerance = to_number(share, domain);
+    tool.checks = true;
+  });
   tool.accept();
   tool.scene();
   tool.input();
   tool.output();
 
   return tool.run(argc, argv, [&] {
-    tool.checks = !std::isnan(task.tolerance);
     if (!tool.checks) tool.refuse({"accept"}, "goes with --check");
     choose_columns(tool, task, columns);
     if (task.temperature < 150)

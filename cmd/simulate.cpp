@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cli/doubts.h"
 #include "cli/law_file.h"
 #include "cli/quantities.h"
 #include "cli/tool.h"
@@ -171,6 +172,10 @@ void check_options(const Tool& tool, const Task& task) {
 
 /// Tells numbers that are hardly meant in these units.
 void tell_doubts(Tool& tool, const Task& task, const SonarOptions& sonar) {
+  const double v0 = task.roll.v0;
+  if (is_hardly_so_fast(task.roll.body, v0))
+    tool.warn(fmt::format("v0 = {} m/s: hardly any such body is so fast; if that is cm/s, write {}",
+                          v0, v0 / 100));
   const double length = task.roll.bulge.length;
   if (length > task.roll.body.R)
     tool.warn(

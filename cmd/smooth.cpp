@@ -4,13 +4,16 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/tool.h"
 #include "selection/selection.h"
 #include "signal/method.h"
+#include "statistics/levels.h"
 #include "text/row_pipe.h"
 
 namespace {
@@ -54,6 +57,11 @@ std::string history(const std::string& column, EqualTimes equal_times,
 std::string end_of(const FreeRoll& roll) {
   if (roll.how == FreeRoll::End::by_itself) return "the body rolled to rest";
   if (roll.how == FreeRoll::End::goes_on) return "the run ends before the roll does";
+  if (roll.how == FreeRoll::End::speeds_up)
+    return fmt::format(
+        "the speed grows again at {:.12g} s: if the body rolled back, make those speeds negative, "
+        "and fit the slope",
+        roll.after);
   return fmt::format("something stopped the body at {:.12g} s", roll.after);
 }
 
@@ -89,7 +97,8 @@ class Told {
       tool_.warn(fmt::format("{} left out: at {}{} s", counted(outliers_, "outlier"), times_,
                              outliers_ > 10 ? ", ..." : ""));
     if (rolls_ == 1) tool_.warn(one_);
-    constexpr std::array how{"rolled to rest", "stopped by something", "still rolling at the end"};
+    constexpr std::array how{"rolled to rest", "stopped by something", "still rolling at the end",
+                             "slow before the speed grows again"};
     std::string ends;
     for (std::size_t i = 0; i < how.size(); ++i)
       if (ends_[i] > 0) add_item(ends, fmt::format("{} {}", ends_[i], how[i]));
@@ -103,7 +112,7 @@ class Told {
   std::string keeps_;
   bool all_rolls_;
   std::size_t outliers_ = 0, runs_ = 0, rolls_ = 0, kept_ = 0, rows_ = 0;
-  std::array<std::size_t, 3> ends_{};
+  std::array<std::size_t, 4> ends_{};
   std::string times_, one_;
 };
 
@@ -158,9 +167,12 @@ class RunOfPipe {
     if (task_.select.all()) pipe_.put(smoother_->push(t, y));
     else take(selection_.push(t, y));
   }
+  /// The place across x, where a file has it.
+  void push_across(double t, double x, double y) { places_.push_back({t, {x, y}}); }
   void finish(Tool& tool, Told& told) {
     take(selection_.finish());
     told.add(selection_, name_, taken_);
+    for (const FreeRoll& roll : selection_.rolls()) tell_oblique(tool, roll.kept);
     pipe_.put(smoother_->finish());
     if (task_.tells_window) tell_window(tool);
   }
@@ -187,6 +199,24 @@ class RunOfPipe {
     ++roll_;
     pipe_.split(taken_, fmt::format("{} roll {} of {}", name_, roll_, rolls.size()));
   }
+  /// Tells a roll that is oblique to the axes of a video: its x is not the way.
+  void tell_oblique(Tool& tool, const Stretch& kept) const {
+    std::array<double, 2> least{INFINITY, INFINITY};
+    std::array<double, 2> most{-INFINITY, -INFINITY};
+    for (const Place& place : places_) {
+      if (place.t < kept.from || place.t > kept.to) continue;
+      for (std::size_t k = 0; k < 2; ++k) {
+        least[k] = std::fmin(least[k], place.xy[k]);
+        most[k] = std::fmax(most[k], place.xy[k]);
+      }
+    }
+    const double ratio = (most[1] - least[1]) / (most[0] - least[0]);
+    if (ratio > levels::oblique)
+      tool.warn(name_, fmt::format("y changes by {:.2g} times as much as x, so that x is not the "
+                                   "way: turn the axes along the motion, or give a column "
+                                   "sqrt(x^2 + y^2)",
+                                   ratio));
+  }
   /// Tells a window that is far longer than the run, or holds one row.
   void tell_window(Tool& tool) const {
     const Width& width = task_.options.width;
@@ -210,6 +240,11 @@ class RunOfPipe {
   std::size_t taken_ = 0;  // whose selection is known
   std::size_t roll_ = 0;
   double begin_ = 0, end_ = 0;
+  struct Place {
+    double t;
+    std::array<double, 2> xy;
+  };
+  std::vector<Place> places_;
 };
 
 /// Reads the runs, and writes them.
@@ -222,6 +257,8 @@ void smooth(Tool& tool, Task& task) {
   if (in.column_of(y) == in.column_of(t)) fail("t is the time: -c names another column, x or v");
   task.select.positions = name == "x";
   require_motion(task.select, name);
+  std::optional<std::size_t> across;
+  if (task.select.needs_run() && name == "x" && in.find("y")) across = in.want("y");
   RowPipe pipe(in, tool.out, history(name, in.equal_times(), task.select, task.options));
   pipe.replace(y);
   double first = INFINITY;
@@ -236,6 +273,7 @@ void smooth(Tool& tool, Task& task) {
       first = std::min(first, pipe[t]);
       last = std::max(last, pipe[t]);
       run.push(pipe[t], pipe[y]);
+      if (across) run.push_across(pipe[t], pipe[y], pipe[*across]);
     }
     run.finish(tool, told);
   }

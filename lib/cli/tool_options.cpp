@@ -233,13 +233,8 @@ void Tool::bodies(std::vector<Body>& bodies, std::string& list,
 }
 
 void Tool::doubt_body() {
-  const double m = last_body_.m;
   const double R = last_body_.R;
   const double K = last_body_.K;
-  // A cylinder of iron with this mass is 40 times as long as thick. A cart has a K of about 0.
-  if (K > 0.1 && m > 1e6 * R * R * R)
-    doubts_.push_back(
-        fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}", m, R, m / 1000));
   if (K > 0 && K < 0.1 && (R == 0.4 || R == 0.5))
     warn(fmt::format("K = {} and R = {} m: if they are swapped, write -K {} -R {}", K, R, R, K));
   for (const std::string& doubt : doubts_) object("", doubt);

@@ -201,7 +201,8 @@ std::optional<Agreement> agreement_of(Route route, const std::vector<Run>& runs,
   const auto own = own_fits(route, runs, options, joint);
   const auto laws = own_laws(own, joint.fastest());
   if (laws.size() < 2) return {};
-  Agreement found = compare(laws, std::min<std::size_t>(free, 2), joint.scene.size());
+  Agreement found =
+      compare(laws, std::min<std::size_t>(free, 2), joint.scene.size(), joint.fastest());
   if (joint.is_roll()) compare_by_readings(found, own, joint);
   if (found.agree()) return found;
   errors = uncertainty_of(around_own(joint, own));

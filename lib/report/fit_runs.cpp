@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "cli/doubts.h"
 #include "cli/history.h"
 #include "cli/law_file.h"
 #include "contact/body.h"
@@ -257,10 +258,7 @@ void doubt_speed(Tool& tool, const FitOfRuns& fit) {
     const double v0 = std::abs(fit.result->v0[r].value);
     const Body& body = fit.runs[r].body;
     if (std::abs(fit.result->law(v0)) > body.R) continue;  // told
-    const bool is_vehicle = body.K < levels::K_of_vehicles;
-    const double fast =
-        is_vehicle ? levels::fast_vehicle : levels::fast * std::sqrt(body.g * body.R);
-    if (v0 > fast)
+    if (is_hardly_so_fast(body, v0))
       tool.object(fit.runs[r].name,
                   fmt::format("v0 comes out as {:.3g} m/s: are the units those of the file, as in "
                               "v[km/h], and the times in seconds? See --use",

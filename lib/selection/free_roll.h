@@ -18,10 +18,11 @@ struct Stretch {
 };
 
 struct FreeRoll {
-  enum class End { by_itself, is_ended, goes_on };
+  enum class End { by_itself, is_ended, goes_on, speeds_up };
 
   Stretch kept;
-  End how;       ///< at rest; by a hand, a brake, a wall, ...; not before the run is over
+  End how;  ///< at rest; by a hand, a brake, a wall, ...; not before the run is over; slow, before
+            ///< the speed grows again
   double after;  ///< the time at which something else begins, if it does not go on
   std::optional<Stretch> other{};  ///< another roll, or what may be the roll as well
 };

@@ -60,8 +60,8 @@ class Search {
               (c.duration > 0.1 * best.duration && c.last + 1 == best.first));
     };
     const auto other = std::ranges::find_if(all, may_be);
-    if (other == all.end()) return found;
-    if (const auto roll = kept(*other)) found[0].other = roll->kept;
+    if (other != all.end())
+      if (const auto roll = kept(*other)) found[0].other = roll->kept;
     return found;
   }
 
@@ -251,8 +251,7 @@ class Search {
     return is_slow(c) ? FreeRoll::End::by_itself : FreeRoll::End::is_ended;
   }
 
-  /// The samples that belong to a roll whatever their noise; nothing if they are fewer than a piece
-  /// needs.
+  /// The samples of a roll whatever their noise; nothing if they are too few for a piece.
   std::optional<FreeRoll> kept(const Chain& c) const {
     Stretch s{begin_of(c), pieces_[c.last].end};
     FreeRoll::End how = set_end(c, s);
@@ -267,6 +266,7 @@ class Search {
     // A rest at the end of the run may be too short for a piece of its own.
     if (how == FreeRoll::End::goes_on && s.end < samples_.size() && is_slow(c))
       how = FreeRoll::End::by_itself;
+    if (!positions_ && is_slow(c) && is_driven_behind(c)) how = FreeRoll::End::speeds_up;
     const double after = samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t;
     return FreeRoll{s, how, after};
   }
@@ -309,7 +309,7 @@ class Search {
     return how;
   }
 
-  /// Whether the body is driven behind the roll: its speed rises there.
+  /// Whether the speed rises behind the roll.
   bool is_driven_behind(const Chain& c) const {
     if (pieces_[c.last].end == samples_.size()) return false;
     const Piece& next = pieces_[c.last + 1];

@@ -77,6 +77,10 @@ inline constexpr double least_D_over_R = 1e-4;
 inline constexpr double fast = 15, fast_vehicle = 85, K_of_vehicles = 0.3;
 /// The columns x and v of a run contradict each other by more than this factor of the way.
 inline constexpr double ways_differ = 1.25;
+/// A heavier body, with a mass of so many R^3 [kg/m^3], is hardly made.
+inline constexpr double heavy = 1e6;
+/// A video has y beside x. Above this ratio of their changes x is more than 0.5 % short of the way.
+inline constexpr double oblique = 0.1;
 /// v0 above so many times the mean speed between any two readings is not measured.
 inline constexpr double v0_over_speeds = 10;
 

@@ -12,14 +12,14 @@ namespace {
 /// Computes chi^2 of the distance from one run to the weighted mean of the others, and stores the
 /// run in the result if that is more than `most`.
 void stand_out(Agreement& result, const OwnLaw& one, Pair others, Symmetric C,
-               std::size_t parameters, double& most) {
+               std::size_t parameters, double fastest, double& most) {
   const Pair d = one.law - others;
   C = C + one.covariance;
   const double distance = C.inverse().square(d);
   if (!(distance > most * (1 + 1e-9))) return;  // two runs are as far from each other
   most = distance;
   const OwnLaw difference{one.run, d, C, 0};
-  const double log_v = difference.best_log_v();
+  const double log_v = std::min(difference.best_log_v(), std::log(fastest));
   result.run = one.run;
   result.speed = std::exp(log_v);
   result.log_D = difference.log_D(log_v);
@@ -71,7 +71,8 @@ Estimate OwnLaw::log_D(double log_v) const {
           std::sqrt(std::max(0.0, C.aa + log_v * (2 * C.ab + log_v * C.bb)))};
 }
 
-Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::size_t taken) {
+Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::size_t taken,
+                  double fastest) {
   Weighted all;
   for (const OwnLaw& one : laws) all.add(one.covariance.inverse(), one.law);
   Agreement result{};
@@ -82,7 +83,7 @@ Agreement compare(const std::vector<OwnLaw>& laws, std::size_t parameters, std::
     const Symmetric weight = one.covariance.inverse();
     result.chi2 += weight.square(one.law - mean);
     const Symmetric rest = (all.weights - weight).inverse();
-    stand_out(result, one, rest * (all.sum - weight * one.law), rest, parameters, most);
+    stand_out(result, one, rest * (all.sum - weight * one.law), rest, parameters, fastest, most);
   }
   result.p_of_run = std::min(1.0, result.p_of_run * static_cast<double>(laws.size()));
   const std::size_t differences = parameters * (laws.size() - 1);

@@ -114,8 +114,10 @@ double ratio_of_run(double distance, double freedom, std::size_t parameters);
 double p_of_run(double distance, double freedom, std::size_t parameters);
 
 /// Compares two or more laws. `parameters`: how many of a and b are free; `taken` degrees of
-/// freedom were spent on what the runs have in common beside the law.
-Agreement compare(const std::vector<OwnLaw>&, std::size_t parameters, std::size_t taken);
+/// freedom were spent on what the runs have in common beside the law. No D is told at a speed above
+/// `fastest`.
+Agreement compare(const std::vector<OwnLaw>&, std::size_t parameters, std::size_t taken,
+                  double fastest = INFINITY);
 
 /// The logarithm of the speed that is common to laws which are known best at the speeds `log_v_of`.
 double common_log_v(const std::vector<OwnLaw>&,
