@@ -16,6 +16,17 @@ TEST_CASE("run laws: two laws whose errors are known, by hand", "[statistics]") 
   CHECK(found.log_D.value == Approx(-0.03));
 }
 
+TEST_CASE("run laws: how far a run is off is told at a speed that the runs had", "[statistics]") {
+  const Symmetric C{1e-4, -1.5e-4, 4e-4};
+  const std::vector<OwnLaw> laws{{0, {0, 0.2}, C, 1e6}, {1, {0.03, 0.1}, C, 1e6}};
+  const Agreement anywhere = compare(laws, 2, 0);
+  CHECK(anywhere.speed == Approx(std::exp(0.375)));
+  const Agreement found = compare(laws, 2, 0, 1.2);
+  CHECK(found.speed == Approx(1.2));
+  CHECK(found.log_D.value == Approx(-0.03 + 0.1 * std::log(1.2)));
+  CHECK(found.chi2 == anywhere.chi2);
+}
+
 TEST_CASE("run laws: in another unit of speed ln D takes the place of ln a", "[statistics]") {
   const OwnLaw one{0, {-6, 0.2}, {1e-4, 1.5e-4, 4e-4}, 10};
   CHECK(one.best_log_v() == Approx(-0.375));
