@@ -96,7 +96,7 @@ std::vector<double> cut_off(std::span<const double> f) {
 
 Path path_of(const Fitted& fit, std::size_t r) {
   const ObservedRun& run = fit.model.runs()[r];
-  Roll roll = fit.model.roll(fit.minimum.theta, r);
+  Roll roll = fit.roll(r);
   const double last = run.t.back();
   ChebyshevPanels at(run.t, {roll.stop_until(last), roll.radius_time(last)}, [&](double t) {
     const Roll::Point p = roll.at(t);

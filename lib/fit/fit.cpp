@@ -71,7 +71,7 @@ std::string names_of(const LawForm& form) {
 bool both_ways(const Fitted& found) {
   const auto& runs = found.model.runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    Roll roll = found.model.roll(found.minimum.theta, r);
+    Roll roll = found.roll(r);
     const double last = runs[r].t.back();
     if (runs[r].way != runs[0].way || (roll.stop_until(last) < last && roll.turns())) return true;
   }
@@ -142,7 +142,7 @@ void require_roll(const Fitted& found) {
   const auto& runs = found.model.runs();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const ObservedRun& run = runs[r];
-    Roll roll = found.model.roll(found.minimum.theta, r);
+    Roll roll = found.roll(r);
     const double v0 = std::abs(found.v0[r].value);
     const double D = found.law().at(v0).D;
     const double last = run.t.back();
@@ -178,7 +178,7 @@ double error_of_delay(const Fitted& found) {
   const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
   const double rows = std::min(std::max(AR, 0.0) / (1 - AR), static_cast<double>(t.size()) / 10);
   const double delay = rows * step;
-  return std::abs(delay * found.model.roll(found.minimum.theta, 0).at(0).a);
+  return std::abs(delay * found.roll(0).at(0).a);
 }
 
 FitResult fit_from_start(Route route, const std::vector<Run>& runs, const FitOptions& options) {

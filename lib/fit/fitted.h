@@ -57,6 +57,7 @@ struct Fitted {
   System system() const { return system_of(model); }
   const Noise& noise() const { return model.noise(); }
   const Parameters& parameters() const { return model.parameters(); }
+  Roll roll(std::size_t run) const { return model.roll(minimum.theta, run); }
   Law law() const;
   /// The numbers that have errors: the coefficients, those of the scene, and v0 and x0
   /// of the first run, if the model has them. A row reports these of a single run alone. If speeds

@@ -138,13 +138,6 @@ std::vector<double> Parameters::theta_of_runs(const std::vector<double>& theta,
   return few;
 }
 
-std::vector<double> Parameters::theta_of_run(const std::vector<double>& theta,
-                                             std::size_t run) const {
-  std::vector<double> one = theta_of_runs(theta, {run});
-  one.resize(one.size() - scene());
-  return one;
-}
-
 std::vector<double> Parameters::theta(PowerLaw law, const std::vector<double>& v0,
                                       const std::vector<double>& x0, double slope) const {
   std::vector<double> all;

@@ -90,10 +90,9 @@ class Parameters {
   }
   /// The given body with the numbers of the scene that are parameters.
   Body body(const std::vector<double>& theta, Body given) const;
-  /// The theta of these runs alone, and that of one run in a scene that is fixed.
+  /// The theta of these runs alone.
   std::vector<double> theta_of_runs(const std::vector<double>& theta,
                                     const std::vector<std::size_t>& runs) const;
-  std::vector<double> theta_of_run(const std::vector<double>& theta, std::size_t run) const;
   /// The theta of a v^b with these v0 and x0 (one for each run), and a road as steep as it is.
   std::vector<double> theta(PowerLaw law, const std::vector<double>& v0,
                             const std::vector<double>& x0, double slope = 0) const;

@@ -85,7 +85,7 @@ Fitted around_own(const Fitted& joint, const std::vector<std::optional<Fitted>>&
 /// which a slope acts like more D.
 double log_v_of(const OwnLaw& one, const Fitted& joint) {
   if (one.covariance.bb > 0 || !joint.is_roll()) return one.best_log_v();
-  Roll roll = joint.model.roll(joint.minimum.theta, one.run);
+  Roll roll = joint.roll(one.run);
   const double last = joint.model.runs()[one.run].t.back();
   const double end = std::min(last, roll.stop_until(last));
   return std::log(roll.at(end).x / end);

@@ -85,14 +85,11 @@ double sum_of_squares(const Fitted&);
 /// towards falling x has v < 0 and D < 0; both are taken positive along its direction of motion.
 Rows shift_rows(const Run&, const FitOptions&, bool logarithms, double stop = INFINITY);
 
-/// The runs of the columns D [m] or ln D with these rows, without the runs that have none. Throws
-/// Error if the rows do not determine the parameters.
-std::vector<ObservedRun> observed_shifts(const std::vector<Run>&, const std::vector<Rows>&,
-                                         const FitOptions&, bool logarithms);
-
-/// The parameters of a law of these runs: the unit of speed is the geometric mean of theirs, where
-/// the estimates of ln D and b are uncorrelated.
-Parameters parameters_of_shifts(const std::vector<ObservedRun>&, const FitOptions&);
+/// The model of the columns D [m] or ln D with these rows, without the runs that have none. Its
+/// unit of speed is the geometric mean of theirs, where the estimates of ln D and b are
+/// uncorrelated. Throws Error if the rows do not determine the parameters.
+Model model_of_shifts(const std::vector<Run>&, const std::vector<Rows>&, const FitOptions&,
+                      bool logarithms);
 
 /// Unweighted least squares on D (or the robust loss) for rows whose filters are not known. D
 /// and a are in metres, v in m/s; runs that roll towards falling x are reflected. Throws Error if

@@ -109,7 +109,7 @@ void set_clock(Fitted& fit, const LinearFilter& filter, const std::vector<Run>& 
   for (std::size_t r = 0; r < all.size(); ++r) {
     const std::vector<double>& t = all[r].t;
     const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-    const double lost = lag_of(filter, step) * fit.model.roll(fit.minimum.theta, r).at(0).a;
+    const double lost = lag_of(filter, step) * fit.roll(r).at(0).a;
     fit.v0[r].value -= fit.model.runs()[r].way * lost;
     if (r == 0) fit.error_of_clock = std::abs(lost);
   }

@@ -133,7 +133,8 @@ Fitted fit_of_run(const Fitted& joint, std::size_t r, const FitOptions& options)
   run.body = all.body(theta, run.body);
   const Model own = Model({run}, all.of_one_run()).weighted(joint.noise().added());
   require_rows(run.y.size(), own.parameters().count(), own.informative_rows());
-  const std::vector<double> start = all.theta_of_run(theta, r);
+  std::vector<double> start = all.theta_of_runs(theta, {r});
+  start.resize(own.parameters().count());  // without the scene, which is fixed
   try {
     require_known(own, start);
     return fit_from(own, {start}, options);

@@ -137,8 +137,8 @@ Rows shift_rows(const Run& run, const FitOptions& options, bool logarithms, doub
   return rows;
 }
 
-std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std::vector<Rows>& rows,
-                                         const FitOptions& options, bool logarithms) {
+Model model_of_shifts(const std::vector<Run>& all, const std::vector<Rows>& rows,
+                      const FitOptions& options, bool logarithms) {
   std::vector<ObservedRun> runs;
   std::vector<double> speeds;
   for (std::size_t r = 0; r < all.size(); ++r) {
@@ -157,30 +157,22 @@ std::vector<ObservedRun> observed_shifts(const std::vector<Run>& all, const std:
   require_rows(speeds.size(), !options.fixed[0] + !options.fixed[1], speeds.size());
   if (!options.fixed[1] && std::ranges::all_of(speeds, [&](double v) { return v == speeds[0]; }))
     fail("all speeds are equal: b cannot be determined");
-  return runs;
-}
-
-Parameters parameters_of_shifts(const std::vector<ObservedRun>& runs, const FitOptions& options) {
   double sum = 0;
-  std::size_t n = 0;
-  for (const ObservedRun& run : runs) {
-    for (const double v : run.t) sum += std::log(v);
-    n += run.t.size();
-  }
-  return {options, std::exp(sum / static_cast<double>(n))};
+  for (const double v : speeds) sum += std::log(v);
+  return {std::move(runs), {options, std::exp(sum / static_cast<double>(speeds.size()))}};
 }
 
 Fitted fit_shift(const std::vector<Run>& all, const FitOptions& options) {
   std::vector<Rows> rows;
   for (const Run& run : all) rows.push_back(shift_rows(run, options, false));
-  std::vector<ObservedRun> runs = observed_shifts(all, rows, options, false);
-  const Parameters q = parameters_of_shifts(runs, options);
-  const PowerLaw start = power_start(runs, q.speed_unit(), options);
-  Fitted fit = fit_from({std::move(runs), q}, {q.theta(start, {}, {})}, options);
+  const Model model = model_of_shifts(all, rows, options, false);
+  const Parameters& q = model.parameters();
+  const PowerLaw start = power_start(model.runs(), q.speed_unit(), options);
+  Fitted fit = fit_from(model, {q.theta(start, {}, {})}, options);
   std::vector<double> variances;
-  for (const Run& run : all)
-    if (!shift_rows(run, options, false).empty())
-      variances.push_back(run.t.empty() ? 0 : variance_of_noise(run.t, run.v));
+  for (std::size_t r = 0; r < all.size(); ++r)
+    if (!rows[r].empty())
+      variances.push_back(all[r].t.empty() ? 0 : variance_of_noise(all[r].t, all[r].v));
   if (std::ranges::any_of(variances, [](double variance) { return variance > 0; }))
     fit.bias = bias_by_speeds(fit, variances);
   return fit;
@@ -301,17 +293,15 @@ Fitted fit_log_log(const std::vector<Run>& all, const FitOptions& options,
   for (std::size_t r = 0; r < runs.size(); ++r) {
     // Behind the stop v and D are noise alone, and where both happen to be positive their
     // logarithms are far from the line.
-    const double stop =
-        roll ? roll->model.runs()[r].origin + roll->model.roll(roll->minimum.theta, r).stop_time()
-             : INFINITY;
+    const double stop = roll ? roll->model.runs()[r].origin + roll->roll(r).stop_time() : INFINITY;
     rows.push_back(shift_rows(runs[r], options, true, stop));
     all_rows += shift_rows(runs[r], options, false).size();
     positive += rows.back().size();
   }
-  std::vector<ObservedRun> logarithms = observed_shifts(runs, rows, options, true);
-  const Parameters q = parameters_of_shifts(logarithms, options);
+  const Model logarithms = model_of_shifts(runs, rows, options, true);
   // The residuals are linear: any start will do.
-  Fitted line = fit_from({std::move(logarithms), q}, {q.theta({1e-3, 0}, {}, {})}, options);
+  const std::vector<double> start = logarithms.parameters().theta({1e-3, 0}, {}, {});
+  Fitted line = fit_from(logarithms, {start}, options);
   if (roll) carry_noise(line, runs, rows, theirs, std::move(*roll));
   else line.negative = all_rows - positive;
   return line;

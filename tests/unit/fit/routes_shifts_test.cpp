@@ -23,11 +23,10 @@ Run run_of(std::vector<double> v, std::vector<double> D) {
   return run;
 }
 
-std::vector<ObservedRun> observed(const std::vector<Run>& runs, const FitOptions& options,
-                                  bool logarithms) {
+Model observed(const std::vector<Run>& runs, const FitOptions& options, bool logarithms) {
   std::vector<Rows> rows;
   for (const Run& run : runs) rows.push_back(shift_rows(run, options, logarithms));
-  return observed_shifts(runs, rows, options, logarithms);
+  return model_of_shifts(runs, rows, options, logarithms);
 }
 
 }  // namespace
@@ -36,17 +35,18 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
           "[fit]") {
   const std::vector<Run> runs{run_of({0.4, missing, 0.1, 0, 0.2}, {3, 2, -1, 1, missing}),
                               run_of({-0.4, -0.1, 0.05}, {-3, -1, -1})};
-  const std::vector<ObservedRun> all = observed(runs, {}, false);
+  const Model model = observed(runs, {}, false);
+  const std::vector<ObservedRun>& all = model.runs();
   CHECK(all[0].y == std::vector<double>{3, -1});
   CHECK(all[1].y == std::vector<double>{3, 1});
   CHECK(shift_rows(runs[0], {}, false) == Rows{0, 2});
   CHECK(shift_rows(runs[1], {}, true) == Rows{0, 1});
   CHECK(usable(Route::loglog, runs) == std::vector<Rows>{{0, 2, 3}, {0, 1, 2}});
   // The geometric mean of 0.4 and 0.1, twice.
-  CHECK(parameters_of_shifts(all, {}).speed_unit() == Approx(0.2).epsilon(1e-15));
+  CHECK(model.parameters().speed_unit() == Approx(0.2).epsilon(1e-15));
   for (const ObservedRun& run : all) CHECK(run.t == std::vector<double>{0.4, 0.1});
 
-  const std::vector<ObservedRun> positive = observed(runs, {}, true);
+  const std::vector<ObservedRun> positive = observed(runs, {}, true).runs();
   CHECK(positive[0].y == std::vector<double>{std::log(3)});
   CHECK(positive[1].y == std::vector<double>{std::log(3), 0});
   CHECK(shift_rows(runs[0], {}, true) == Rows{0});
@@ -54,7 +54,8 @@ TEST_CASE("shift rows: along the motion, v finite and positive, D positive for l
   FitOptions fast;
   fast.min_speed = 0.3;
   fast.fixed[1] = 1;  // with one speed alone b has to be held
-  for (const ObservedRun& run : observed(runs, fast, false)) CHECK(run.y == std::vector<double>{3});
+  const std::vector<ObservedRun> few = observed(runs, fast, false).runs();
+  for (const ObservedRun& run : few) CHECK(run.y == std::vector<double>{3});
   fast.fixed[1].reset();
   CHECK_THROWS_AS(observed(runs, fast, false), Error);
 }
@@ -74,9 +75,10 @@ TEST_CASE("shift rows: the derivatives of the residuals are those of differences
         FitOptions options;
         if (hold_a) options.fixed[0] = 4e-3;
         if (hold_b) options.fixed[1] = 0.3;
-        const std::vector<ObservedRun> rows = observed(runs, options, logarithms);
-        const Parameters q = parameters_of_shifts(rows, options);
-        const System system = system_of(Model(rows, q));
+        const Model model = observed(runs, options, logarithms);
+        const std::vector<ObservedRun>& rows = model.runs();
+        const Parameters& q = model.parameters();
+        const System system = system_of(model);
         const auto at = [&](const std::vector<double>& theta) {
           std::vector<double> all;
           system.evaluate(theta, [&](std::size_t, std::span<double> f, std::span<double> J) {
