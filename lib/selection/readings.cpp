@@ -177,6 +177,7 @@ Means means_of_rows(std::span<const Sample> samples) {
 Spikes spikes_in(std::span<const Sample> run) {
   constexpr std::size_t beside = 5;
   std::vector<double> medians;
+  std::vector<double> scatters;
   std::vector<Sample> apart;
   std::vector<double> readings;
   for (const Sample& s : run) readings.push_back(s.y);
@@ -187,15 +188,17 @@ Spikes spikes_in(std::span<const Sample> run) {
     for (const Sample& s : run.subspan(i - beside, 2 * beside + 1)) near.push_back(s.y);
     medians.push_back(median(near));
     for (double& y : near) y = std::abs(y - medians.back());
-    if (std::abs(run[i].y - medians.back()) > std::max(6 * median(near), 3 * grid))
+    scatters.push_back(median(near));
+    if (std::abs(run[i].y - medians.back()) > std::max(6 * scatters.back(), 3 * grid))
       apart.push_back(run[i]);
     else apart.push_back({run[i].t, medians.back()});
   }
   Spikes spikes{0, apart.size()};
   if (apart.empty()) return spikes;
   const auto [least, most] = std::ranges::minmax(medians);
+  const double far = std::max((most - least) / 5, 8 * median(scatters));
   for (std::size_t i = 0; i < apart.size(); ++i)
-    if (std::abs(apart[i].y - medians[i]) > (most - least) / 5 && spikes.found++ == 0)
+    if (std::abs(apart[i].y - medians[i]) > far && spikes.found++ == 0)
       spikes.first = apart[i];
   return spikes;
 }

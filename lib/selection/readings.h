@@ -48,9 +48,9 @@ Means means_of_rows(std::span<const Sample> samples);
 bool are_held(std::span<const double> readings);
 
 /// Readings that jump off the motion: those that are further from the median of themselves and five
-/// neighbours on either side than a fifth of the range of such medians, and than six times the
-/// median distance of these eleven, and than three steps of a grid that the readings lie on. Of
-/// long runs some thousand readings are looked at.
+/// neighbours on either side than a fifth of the range of such medians, than six times the median
+/// distance of these eleven, than eight times that of the whole run, and than three steps of a grid
+/// that the readings lie on. Of long runs some thousand readings are looked at.
 struct Spikes {
   std::size_t found = 0, among = 0;
   Sample first{};

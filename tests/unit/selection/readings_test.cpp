@@ -287,6 +287,18 @@ TEST_CASE("readings: those that jump off the motion are counted, and told from a
   CHECK(spikes_in({}).found == 0);
 }
 
+TEST_CASE("readings: the noise of a body at rest is no spike", "[signal]") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.3, 4e-4);
+  std::size_t with_spikes = 0;
+  for (int run = 0; run < 200; ++run) {
+    std::vector<Sample> rest;
+    for (int i = 0; i < 100; ++i) rest.push_back({0.04 * i, noise(random)});
+    with_spikes += spikes_in(rest).found > 0;
+  }
+  CHECK(with_spikes <= 2);
+}
+
 TEST_CASE("readings: a counter that starts over is told from a step and from spikes", "[signal]") {
   std::vector<Sample> run;
   for (int i = 0; i < 100; ++i) run.push_back({0.04 * i, std::fmod(64000 + 40.0 * i, 65536)});
