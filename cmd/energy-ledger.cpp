@@ -119,6 +119,13 @@ double mass_of_run(const Task& task, Reader& in, std::size_t i) {
   return task.masses[value_of_run(task.list, count, i, runs)].m;
 }
 
+/// Objects to a mass that is probably in grams.
+void doubt_mass(Tool& tool, const std::string& run, const Body& body) {
+  if (is_hardly_so_heavy(body))
+    tool.object(run, fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}",
+                                 body.m, body.R, body.m / 1000));
+}
+
 /// Checks the balance of a run.
 void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
   std::string beyond;
@@ -187,9 +194,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
     const LawOfFile& law = law_of(task.laws, run);
     Body body = task.uses_law ? law.body : body_of_shifts(tool, in, law.body);
     body.m = mass_of_run(task, in, runs++);
-    if (is_hardly_so_heavy(body))
-      tool.object(run, fmt::format("m = {} kg on a radius of {} m: if that is grams, write {}",
-                                   body.m, body.R, body.m / 1000));
+    doubt_mass(tool, run, body);
     if (!task.uses_law) tests_nothing |= shifts_of_speeds(in.history());
     if (pipe)
       pipe->set_history("energy-ledger " + (task.uses_law ? words_of(law.law) : "D") +

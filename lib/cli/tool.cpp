@@ -189,7 +189,9 @@ const std::string choose_roll =
     "Choose it with smooth --coast, or with --from and --to";
 const std::map<ErrorKind, std::string> ways_out{
     {NotOneRoll, choose_roll},
-    {OneWay, ": add runs in the other direction; if some of these are, make their x fall and their v negative"},
+    {OneWay,
+     ": add runs in the other direction; if some of these are, make their x fall and "
+     "their v negative"},
     {LooseExponent, choose_roll + "; or fix it, --fix b=0"},
     {NoFreeRoll, ": choose the roll by its times (--from, --to)"},
     {WayBack,

@@ -300,6 +300,30 @@ void write_table(Output& out, const std::string& line, const std::vector<std::ve
   out.flush();  // the rows stand above the messages
 }
 
+std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
+
+std::string disagreement(const Agreement& found, const std::vector<Run>& runs, bool check) {
+  const bool agree = found.agree();
+  if (agree && !(check && found.p_of_run <= levels::run_off)) return {};
+  std::string line =
+      agree ? fmt::format("the runs agree as a whole, but one of {} is off ({})", found.runs,
+                          p_of(found.p_of_run))
+            : fmt::format(
+                  "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees "
+                  "of freedom, {})",
+                  found.ratio, found.dof, p_of(found.p));
+  line += fmt::format(": run {} {}", runs[found.run].name,
+                      found.runs > 2 ? "stands out" : "is not like the other");
+  if (found.log_D.sigma > 0)
+    line += fmt::format(", in D({:.2g} m/s) by {:+.3g} +- {:.1g} %", found.speed,
+                        100 * std::expm1(found.log_D.value), 100 * found.log_D.sigma);
+  if (found.b.sigma > 0)
+    line += fmt::format(", in its exponent by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
+  if (agree) return line;
+  return line + (found.of_mean ? "; the row is their mean, with their scatter in its uncertainties"
+                               : "; the uncertainties of the row contain their scatter");
+}
+
 void fit_rows(Tool& tool, const Bodies& bodies) {
   FitRows rows = read_rows(tool);
   warn_of_same_rows(tool, rows);

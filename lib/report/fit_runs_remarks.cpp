@@ -21,8 +21,6 @@ bool exact(const FitOfRuns& fit) {
   return r.rms < 1e-9 * scale;
 }
 
-std::string p_of(double p) { return p < 1e-300 ? "p < 1e-300" : fmt::format("p = {:.1g}", p); }
-
 /// The remarks on one fit. Causes come first, then what a cause would bring with it.
 class Remarks {
  public:
@@ -69,9 +67,10 @@ class Remarks {
   /// What may make runs disagree and is not taken into account yet.
   std::string ways_to_agree() const {
     std::string ways;
-    if (!options_.fit_slope)
-      ways += go_one_way() ? "; if some rolled back, make their x fall and say --slope fit"
-                           : "; if they rolled in both directions, --slope fit";
+    if (!options_.fit_slope && go_one_way())
+      ways += fmt::format("; if some rolled back, make their {}, and say --slope fit",
+                          fit_.route == Route::position ? "x fall" : "v negative");
+    else if (!options_.fit_slope) ways += "; if they rolled in both directions, --slope fit";
     const double K = fit_.runs.front().body.K;
     const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
     ways += std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
@@ -298,28 +297,6 @@ class Remarks {
 };
 
 }  // namespace
-
-std::string disagreement(const Agreement& found, const std::vector<Run>& runs, bool check) {
-  const bool agree = found.agree();
-  if (agree && !(check && found.p_of_run <= levels::run_off)) return {};
-  std::string line =
-      agree ? fmt::format("the runs agree as a whole, but one of {} is off ({})", found.runs,
-                          p_of(found.p_of_run))
-            : fmt::format(
-                  "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees "
-                  "of freedom, {})",
-                  found.ratio, found.dof, p_of(found.p));
-  line += fmt::format(": run {} {}", runs[found.run].name,
-                      found.runs > 2 ? "stands out" : "is not like the other");
-  if (found.log_D.sigma > 0)
-    line += fmt::format(", in D({:.2g} m/s) by {:+.3g} +- {:.1g} %", found.speed,
-                        100 * std::expm1(found.log_D.value), 100 * found.log_D.sigma);
-  if (found.b.sigma > 0)
-    line += fmt::format(", in its exponent by {:+.2g} +- {:.1g}", found.b.value, found.b.sigma);
-  if (agree) return line;
-  return line + (found.of_mean ? "; the row is their mean, with their scatter in its uncertainties"
-                               : "; the uncertainties of the row contain their scatter");
-}
 
 void remark(Tool& tool, const FitOfRuns& fit, const FitOptions& options, std::size_t fits) {
   Remarks(tool, fit, options, fits).make();

@@ -198,8 +198,7 @@ Spikes spikes_in(std::span<const Sample> run) {
   const auto [least, most] = std::ranges::minmax(medians);
   const double far = std::max((most - least) / 5, 8 * median(scatters));
   for (std::size_t i = 0; i < apart.size(); ++i)
-    if (std::abs(apart[i].y - medians[i]) > far && spikes.found++ == 0)
-      spikes.first = apart[i];
+    if (std::abs(apart[i].y - medians[i]) > far && spikes.found++ == 0) spikes.first = apart[i];
   return spikes;
 }
 
