@@ -22,7 +22,7 @@ for goal; do
   last=$(sed -nE '/^[0-9]+ passed, [0-9]+ failed|^[0-9]+ of [0-9]+ killed|^(lines|branches): /p
     s/^  (survived: )/\1/p' "$scratch/said" | paste -s -d ';' | sed 's/;/; /g')
   last=${last:-done in $SECONDS s}
-  [ $status = 0 ] || { wrong=1 && tail -n 20 "$scratch/said" && last+=" (make: exit status $status)"; }
+  [ $status = 0 ] || { wrong=1; grep -A 14 '^FAIL' "$scratch/said"; tail -n 20 "$scratch/said"; last+=" (make: exit status $status)"; }
   touch tests/results.txt
   {
     grep -vF "make $goal: $system: " tests/results.txt

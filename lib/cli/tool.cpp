@@ -242,11 +242,11 @@ std::string Tool::message_of(const Error& error) const {
   const Reader& in = *reader;
   std::string text = in.where();
   if (!text.empty()) text += ": ";
+  if (error.is_of_motion() && !in.assumed().empty())
+    text += fmt::format("{} (for other columns say --use, as --use x=2): ", in.assumed());
   text += told(error);
   if (error.is_of_motion() && !fixed_values().empty())
     text += fmt::format(" (given: {})", fixed_values());
-  if (error.is_of_motion() && !in.assumed().empty())
-    text += fmt::format(" ({}; for other columns say --use, as --use x=2)", in.assumed());
   return text;
 }
 

@@ -22,9 +22,9 @@ std::string short_name(std::string_view name) {
   return std::string(found == std::end(long_names) ? name : found->second);
 }
 
-/// Removes `Run #2` or `Run 2` from the end of a name, and `Latest:` or `Data Set 1:` from its
-/// beginning; returns the number, or the word if there is no number. A colon in brackets, or behind
-/// them, is none of a label: `Clock (hh:mm:ss)`.
+/// Removes `Run #2` or `Run 2` from the end of a name, any words and #2 behind a unit in brackets,
+/// and `Latest:` or `Data Set 1:` from its beginning; returns the number, or the word if there is
+/// no number. A colon in brackets, or behind them, is none of a label: `Clock (hh:mm:ss)`.
 std::string take_run(std::string_view& name) {
   const auto number_at_end = [](std::string_view text) {
     return text.substr(text.find_last_not_of(decimal_digits) + 1);
@@ -36,7 +36,13 @@ std::string take_run(std::string_view& name) {
   }
   const std::string_view number = number_at_end(name);
   std::string_view before = trim(name.substr(0, name.size() - number.size()));
-  if (before.ends_with('#')) before = trim(before.substr(0, before.size() - 1));
+  if (before.ends_with('#')) {
+    before = trim(before.substr(0, before.size() - 1));
+    if (const auto unit = before.find_last_of(")]") + 1; unit > 0 && !number.empty()) {
+      name = before.substr(0, unit);
+      return std::string(number);
+    }
+  }
   constexpr std::string_view run = " Run";
   if (!number.empty() && before.ends_with(run)) {
     name = trim(before.substr(0, before.size() - run.size()));

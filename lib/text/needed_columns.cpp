@@ -238,8 +238,9 @@ void NeededColumns::resolve(Needed& needed) {
 /// Notes what is assumed of a column that serves as `quantity`, once for all runs.
 void NeededColumns::assume(std::size_t at, std::string_view quantity, std::string_view what) {
   std::string line = fmt::format("{} is column {}", quantity, at + 1);
+  const Column& column = as_read_[at];
   if (named_ && !shown_name(at).starts_with("column "))
-    line += fmt::format(", '{}'", shown(as_read_[at].name));
+    line += fmt::format(", '{}'", shown(column.name == quantity ? column.written : column.name));
   line += what;
   if (assumed_.find(line) == std::string::npos) add_item(assumed_, line, "; ");
 }
@@ -258,8 +259,12 @@ Conversion NeededColumns::conversion(Needed& needed) {
     meant.unit = unit_of(quantity, meant.name) ? meant.name : unit_at_end(quantity, meant.name);
   if (as_is && meant.unit.ends_with(of_power_law))
     meant.unit.resize(meant.unit.size() - of_power_law.size());
+  // A letter is that of the formulas, in SI units; a word such as Speed is not. Times may be
+  // clocks.
+  const bool is_letter = quantity == "t" || !meant.run.empty() || meant.written == quantity;
   if (const auto said = said_.find(quantity);
-      known && meant.unit.empty() && (!named_ || meant.name != quantity || said != said_.end()))
+      known && meant.unit.empty() &&
+      (!named_ || !is_letter || meant.name != quantity || said != said_.end()))
     assume(needed.column, quantity,
            fmt::format(", taken in {}{}", known->si,
                        said == said_.end() ? "" : " although " + said->second));

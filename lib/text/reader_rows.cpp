@@ -160,6 +160,8 @@ inline void Reader::check_time(const NeededColumns::Needed& needed, double t) {
   }
   if (t <= last_time_) {
     std::string way_out = "put a blank line before another run, or say --use t=COLUMN";
+    if (std::isnan(last_step_))
+      way_out = "if all times fall, sort the rows by time; else " + way_out;
     if (t == last_time_)
       way_out = "smooth --equal-times mean (or first) makes one row of rows of one time";
     if (t == last_time_ && !needed_.assumed().empty())

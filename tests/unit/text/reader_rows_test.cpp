@@ -15,7 +15,8 @@ TEST_CASE("reader: clock times are seconds", "[text]") {
   CHECK(rows({"1 101259.5\n2 101300\n"}, {.use = {"v=1", "t=2[hhmmss]"}}) == "36779.5 1 | 36780 2");
   CHECK(rows({"Time,v\n1:00:00,1\nNaN,2\n,3\n1:00:01,4\n"}) == "3600 1 | 3601 4");
   CHECK(rows({"Time,v\n1:00:00,1\n0:59:59,2\n"}) ==
-        "FILE:3: field 1 (t): '0:59:59' does not come after 3600 s; put a blank line before "
+        "FILE:3: field 1 (t): '0:59:59' does not come after 3600 s; if all times fall, sort the "
+        "rows by time; else put a blank line before "
         "another run, or say --use t=COLUMN");
   for (const char* text : {"Time,v\n1:00:00,1\n5000,2\n", "Time,v\n1,1\n1:00:00,2\n"})
     CHECK(rows({text}).find("is of another form than the times before it") != std::string::npos);

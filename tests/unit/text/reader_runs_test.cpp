@@ -116,9 +116,11 @@ TEST_CASE("reader: --run picks one run and no other", "[text]") {
 
 TEST_CASE("reader: time increases within a run, and starts anew in the next", "[text]") {
   CHECK(rows({"0 1\n0 2\n"}) == "FILE:2: field 1 (t): '0' does not come after 0" + unnamed);
-  CHECK(rows({"1 1\n0.5 2\n"}) ==
-        "FILE:2: field 1 (t): '0.5' does not come after 1; put a blank line before another run, "
-        "or say --use t=COLUMN");
+  CHECK(
+      rows({"1 1\n0.5 2\n"}) ==
+      "FILE:2: field 1 (t): '0.5' does not come after 1; if all times fall, sort the rows by time; "
+      "else put a blank line before another run, "
+      "or say --use t=COLUMN");
   CHECK(rows({"# t[ms] v\n500 1\n500 2\n"}) ==
         "FILE:3: field 1 (t): '500' does not come after 0.5 s; " + joined);
   CHECK(rows({"5 1\n\n4 2\n"}) == "5 1 || 4 2");
