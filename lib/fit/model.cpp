@@ -372,7 +372,7 @@ System system_of(const Model& model) {
       std::vector<double> all(n * (1 + columns));  // the residuals, then the columns of J
       for (std::size_t i = 0; i < n; ++i) {
         all[i] = raw(run.t[i], by);
-        model.parameters().chain(&all[n + i], n, c0, by);
+        if (columns > 0) model.parameters().chain(&all[n + i], n, c0, by);
       }
       if (run.H) all = run.H->times(all);
       for (std::size_t i = 0; i < rows; ++i) all[i] -= run.y[i];
