@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/grid.h"
 #include "base/median.h"
+#include "statistics/levels.h"
 
 #include <algorithm>
 #include <array>
@@ -260,6 +261,10 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
+  // In the exact geometry a roll under b = -1800 takes seconds, and no mat has such a b.
+  const auto power = law.power();
+  if (body.exact && power && std::abs(power->b) > levels::largest_b)
+    fail("no mat has such an exponent");
   if (!body.road) return {body, law, v0};
   // A search may come to such laws, under which a body in a hollow creeps: this takes seconds.
   if (law.at(parameters_.speed_unit()).D > body.R) fail("D is beyond the radius");
