@@ -102,6 +102,10 @@ fit() {
 # The check says whether f1 may be left out.
 fit ${no_f1:+--check} "$scratch/runs" >"$scratch/row" || [ -s "$scratch/row" ] || exit 2
 
+awk -F '\t' '/^# d0/ { next } /^[^#]/ && ($1 < 3e-4 || $1 > 0.03) { printf "C_rr is %.2g: wheels have 0.0005 to 0.025; is the unit of the speed in the header, and the wind in m/s?\n", $1 }' \
+  "$scratch/row" >"$scratch/doubt"
+[ ! -s "$scratch/doubt" ] || echo "road-load.sh: $(cat "$scratch/doubt")" >&2
+
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,
 # K1 = f0 (1 - TM/m), K2 = (T/293 K)(standard pressure/p), w1 = f2 w^2 where no wind is fitted.

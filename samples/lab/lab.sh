@@ -109,6 +109,7 @@ if [ "$check" ] && [ "$m" ]; then
     energy-ledger -m "$m" --law "$table" --summary --digits 6 --check 0.05 ${accepted[@]+"${accepted[@]}"} \
       >"$new/energy.txt" || { [ $? = 1 ] || rm "$new/energy.txt"; failed=1; }
 fi
+[ -z "$check" ] || [ -z "$failed" ] || say 'failed: see the lines above'
 [ -z "$check" ] || [ "$failed" ] ||
   echo "passed: $runs run$([ "$runs" = 1 ] || echo s)$([ $over = 0 ] || echo ", files passed over: $over")" >&2
 

@@ -156,6 +156,7 @@ mkdir off
 for seed in 101 102 103 104; do cp runs/$seed.csv off; done
 simulate --scene ../CR.toml -a 2e-3 --sensor pasco --seed 105 >off/105.csv
 lab --check $of_body off && complain 'check: a run that is off'
+[ "$(tail -n 1 said)" = 'lab.sh: failed: see the lines above' ] || complain "the last line of a check that fails: $(cat said)"
 lab --check $of_body --accept 105.csv off || complain "--accept of a run that is off: $(cat said)"
 grep -q 'accepted: the runs disagree .*: run 105.csv stands out' said || complain "accepted: $(cat said)"
 lab --check $of_body --accept 104.csv off && complain 'check: another run is accepted'

@@ -74,6 +74,15 @@ load -m 1512 --rotating 60.48 out1 signed >table && complain 'two ways as one'
 grep -qx 'road-load.sh: runs both ways: give those of the way back behind --back, or say --slope fit' said || complain "two ways: $(cat said)"
 load -m 1512 --rotating 60.48 --slope fit out1 signed >table || complain "two ways with --slope fit: $(cat said)"
 
+# A C_rr that wheels hardly have is told: speeds in km/h that are taken in m/s.
+for C_rr in 0.029 0.031; do
+  printf 'd0[m] d2[s^2/m]\n%s 2.7e-5\n' $C_rr | simulate --law - -K 0.04 -R 1 --v0 30 --dt 1 --until 50 --columns t,v --digits 6 |
+    awk '/^##/ { next } { sub(/^# /, "") } 1' >soft
+  load --no-f1 -m 1512 --rotating 60.48 soft >/dev/null
+  echo "$C_rr $(grep -c 'C_rr is 0.031: wheels have' said)"
+done >table
+[ "$(cat table)" = $'0.029 0\n0.031 1' ] || complain "C_rr: $(cat table said)"
+
 # A run is named by its file alone: rounded speeds cause a warning that names it.
 awk -F , 'NR == 1 { print; next } { printf "%s,%.0f\n", $1, $2 }' out1 >coarse
 load -m 1512 --rotating 60.48 coarse >/dev/null
