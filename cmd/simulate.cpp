@@ -349,10 +349,10 @@ int main(int argc, char** argv) {
     task.row = chosen(columns, quantities);
     task.complete(tool);
     check_options(tool, task);
-    tell_doubts(tool, task, sonar);
     const auto motion = task.start();
     const bool to_the_stop = std::isnan(until);
     double end = times_file.empty() ? last_time(task, *motion, until) : not_given;
+    tell_doubts(tool, task, sonar);
     if (task.report) {
       report(tool, task.roll, task.rtol, to_the_stop ? 10 : until - task.t0);
     } else if (sensor) {
