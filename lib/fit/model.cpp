@@ -261,7 +261,7 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   const Law law = parameters_.law(theta);
   const double v0 = parameters_.v0(theta, run);
   if (law.in_wind(body.wind).at(std::abs(v0)).D < 0) fail("the mat does not slow the body down");
-  // In the exact geometry a roll under b = -1800 takes seconds, and no mat has such a b.
+  // In the exact geometry a roll under b = -400 takes a second, and no mat has such a b.
   const auto power = law.power();
   if (body.exact && power && std::abs(power->b) > levels::largest_b)
     fail("no mat has such an exponent");

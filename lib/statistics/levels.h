@@ -65,7 +65,7 @@ inline constexpr double bent = 0.1;
 /// 50.
 inline constexpr double largest_sigma_b = 3;
 /// In the exact geometry a search tries no exponent beyond it.
-inline constexpr double largest_b = 500;
+inline constexpr double largest_b = 60;
 /// sigma_a/a above which a +- sigma_a is no interval: ln a has the normal distribution. There a +-
 /// 1.96 sigma_a holds the truth in 93.6 %, but misses it by 3 sigma_a six times too often.
 inline constexpr double uncertain_a = 0.3;
