@@ -258,7 +258,7 @@ void smooth(Tool& tool, Task& task) {
   task.select.positions = name == "x";
   require_motion(task.select, name);
   std::optional<std::size_t> across;
-  if (task.select.needs_run() && name == "x" && in.find("y")) across = in.want("y");
+  if (task.select.needs_run() && name == "x") across = in.want_beside("y");
   RowPipe pipe(in, tool.out, history(name, in.equal_times(), task.select, task.options));
   pipe.replace(y);
   double first = INFINITY;

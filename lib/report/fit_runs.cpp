@@ -186,7 +186,10 @@ std::vector<Run> read_runs(Tool& tool, Reader& in, Route route, bool needs_x) {
     Run& run = runs.emplace_back();
     run.name = in.run_name();
     tool.know_run(run.name);
-    if (is_trajectory(route) || !in.history().empty())  // they are compared with these columns
+    if (in.history().empty() && is_trajectory(route))
+      for (const Quantity q : {Quantity::x, Quantity::v})
+        if (!slots[q]) slots[q] = in.want_beside(name_of(q));
+    if (!in.history().empty())  // the `##` lines are compared with the other columns
       for (const Quantity q : {Quantity::t, Quantity::x, Quantity::v, Quantity::D})
         if (const std::string name(name_of(q)); in.find(name) && !slots[q])
           slots[q] = q == Quantity::t ? in.need(name) : in.want(name);

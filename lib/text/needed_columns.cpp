@@ -211,9 +211,19 @@ void NeededColumns::refuse(std::string_view name) const {
   fail("there is no column '{}' among {}{}", shown(name), list(), way_out);
 }
 
+std::optional<std::size_t> NeededColumns::find_beside(std::string_view name) const {
+  if (std::ranges::count(quantities_, name) != 1) return {};
+  const auto found =
+      static_cast<std::size_t>(std::ranges::find(quantities_, name) - quantities_.begin());
+  if (as_read_[found].unit.empty()) return found;
+  const auto unit = read_unit(as_read_[found].unit);
+  const bool serves = unit && (!known_quantity(name) || si_unit(unit->quantity) == si_unit(name));
+  return serves ? std::optional(found) : std::nullopt;
+}
+
 void NeededColumns::resolve(Needed& needed) {
-  const auto found = find(needed.name);
-  if (!found && needed.kind != Kind::wanted) refuse(needed.name);
+  const auto found = needed.kind == Kind::beside ? find_beside(needed.name) : find(needed.name);
+  if (!found && needed.kind < Kind::wanted) refuse(needed.name);
   needed.column = found.value_or(no_column);
   needed.to_si = {};
   needed.clock.clear();
@@ -253,6 +263,8 @@ Conversion NeededColumns::conversion(Needed& needed) {
   const bool as_is = needed.kind == Kind::as_is;
   const std::string& quantity = needed.quantity;
   const KnownQuantity* const known = as_is ? nullptr : known_quantity(quantity);
+  if (const auto unit = read_unit(meant.unit); !known && needed.kind == Kind::beside && unit)
+    return unit->to_si;
   if (!known && !as_is) return {};
   // A name that is a unit itself, as `kph`, or ends with one.
   if (known && named_ && meant.unit.empty())
@@ -263,7 +275,7 @@ Conversion NeededColumns::conversion(Needed& needed) {
   // clocks.
   const bool is_letter = quantity == "t" || !meant.run.empty() || meant.written == quantity;
   if (const auto said = said_.find(quantity);
-      known && meant.unit.empty() &&
+      known && meant.unit.empty() && needed.kind != Kind::beside &&
       (!named_ || !is_letter || meant.name != quantity || said != said_.end()))
     assume(needed.column, quantity,
            fmt::format(", taken in {}{}", known->si,

@@ -19,8 +19,9 @@ class NeededColumns {
   static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
   enum class Kind {
     needed,  ///< of a quantity: converted to SI, and a row without it is left out
-    wanted,  ///< the same, but it may be absent, and its readings may be missing
-    as_is    ///< under this name, and converted from its unit alone
+    as_is,   ///< under this name, and converted from its unit alone
+    wanted,  ///< as needed, but it may be absent, and its readings may be missing
+    beside   ///< as wanted, to compare with: what cannot be read is missing too
   };
   struct Needed {
     std::string name;      ///< in the call of add()
@@ -55,6 +56,8 @@ class NeededColumns {
   /// there is one. Where no name is t, or v or x, the only column in a unit of it serves as it.
   /// Throws Error where there are several.
   std::optional<std::size_t> find(std::string_view name) const;
+  /// Index of the only column of this quantity or name, if its unit is known; nothing is refused.
+  std::optional<std::size_t> find_beside(std::string_view name) const;
   /// The columns of this run with the names and units of the output: a column that serves as a
   /// quantity has its name and unit; another column of that name is renamed.
   const std::vector<Column>& in_output() const { return in_output_; }

@@ -58,6 +58,11 @@ class Reader {
   std::size_t need(std::string_view name) { return add(name, NeededColumns::Kind::needed); }
   /// The same for a column with missing readings, which are NaN. It may be absent from later runs.
   std::size_t want(std::string_view name) { return add(name, NeededColumns::Kind::wanted); }
+  /// A column to compare with, if there is one that can be read; NaN where it cannot.
+  std::optional<std::size_t> want_beside(std::string_view name) {
+    if (!needed_.find_beside(name)) return {};
+    return add(name, NeededColumns::Kind::beside);
+  }
   /// The same for a column in this SI unit whose name means something else than the known quantity
   /// (a is the coefficient in a row of fitpower, not an acceleration). Without a unit it is in this
   /// one.

@@ -123,7 +123,7 @@ inline double Reader::read(const NeededColumns::Needed& needed) {
 double Reader::read_text(const NeededColumns::Needed& needed) {
   const std::string_view text = fields_[needed.column].text;
   if (is_missing(text)) {
-    if (options_.strict && needed.kind != NeededColumns::Kind::wanted)
+    if (options_.strict && needed.kind < NeededColumns::Kind::wanted)
       refuse(needed, "is a missing reading");
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -132,6 +132,7 @@ double Reader::read_text(const NeededColumns::Needed& needed) {
     if (const auto time =
             clock_.seconds(needed.clock == digits_of_clock ? with_colons(text) : std::string(text)))
       return *time;
+  if (needed.kind == NeededColumns::Kind::beside) return std::numeric_limits<double>::quiet_NaN();
   refuse(needed, not_a_number(text, is_time));
 }
 
@@ -143,7 +144,7 @@ inline bool Reader::take_row() {
   double* to = values_.data();
   for (const NeededColumns::Needed& needed : needed_.all()) {
     *to = read(needed);
-    if (std::isnan(*to++) && needed.kind != NeededColumns::Kind::wanted) return false;
+    if (std::isnan(*to++) && needed.kind < NeededColumns::Kind::wanted) return false;
   }
   if (time_slot_ != no_column) check_time(needed_.all()[time_slot_], values_[time_slot_]);
   return true;
