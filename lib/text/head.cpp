@@ -334,9 +334,14 @@ class HeadReader {
   [[noreturn]] void refuse_without_rows() const {
     if (const auto bare =
             std::find_if(above_.rbegin(), above_.rend(), std::mem_fn(&HeadLine::is_bare));
-        bare != above_.rend())
-      fail<InputError>("{}:{}: no rows: no field of '{}' is a number", lines_.name(), bare->number,
-                       shown(bare->text));
+        bare != above_.rend()) {
+      const auto blank = bare->text.find(' ');
+      const bool unit = bare->text.find_first_of(decimal_digits) < blank &&
+                        blank + 1 < bare->text.size() && is_unit(bare->text.substr(blank + 1, 1));
+      fail<InputError>("{}:{}: no rows: no field of '{}' is a number{}", lines_.name(),
+                       bare->number, shown(bare->text),
+                       unit ? "; a unit stands in the header alone" : "");
+    }
     if (lines_.name() == "-" && above_.empty())
       fail<InputError>("standard input is empty: did the tool before this one fail?");
     fail<InputError>("{}: no rows", lines_.name());

@@ -133,6 +133,8 @@ double Reader::read_text(const NeededColumns::Needed& needed) {
             clock_.seconds(needed.clock == digits_of_clock ? with_colons(text) : std::string(text)))
       return *time;
   if (needed.kind == NeededColumns::Kind::beside) return std::numeric_limits<double>::quiet_NaN();
+  if (text == layout().columns[needed.column].written)
+    refuse(needed, "is the header again; put a blank line before it, or give the files one by one");
   refuse(needed, not_a_number(text, is_time));
 }
 

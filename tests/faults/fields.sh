@@ -84,7 +84,7 @@ only a history	-: no rows	## smooth v mean width 11\n# t[s]\tv[m/s]\ta\tD\n
 a row cut short	-:4: 2 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7\n
 a row cut short without its end	-:4: 3 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -7
 a row too long	-:4: 5 fields where the first row has 4	# t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\n77 .7 -.7 7 7\n
-a second header	is not a number	t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\nt v a D\n77 .7 -.7 7\n
+a second header	is the header again	t v a D\n0 .5 -.1 1e-3\n1 .4 -.1 1e-3\nt v a D\n77 .7 -.7 7\n
 fewer names than fields	-:2: 4 fields under a line of 3 names	t,v,a\n7,.5,-.1,1e-3\n1,.4,-.1,1e-3\n
 lines that end in CR	-:1: a carriage return	0 .5 -.1 1e-3 1\r1 .4 -.1 1e-3 1\r77 .7 -.7 7 1\r
 names and lines that end in CR	-:1: a carriage return	t,v,a,D\r0,.5,-.1,1e-3\r1,.4,-.1,1e-3\r77,.7,.7,7\r

@@ -167,4 +167,6 @@ TEST_CASE("head: where no line is a row, the last one is said to be none", "[tex
   CHECK(head("0 1,\n1 2,\n2 3,\n") == "3: no rows: no field of '2 3,' is a number");
   CHECK(head("Time (ms)|Velocity (cm/s)\n0|1\n1|2\n") ==
         "3: no rows: no field of '1|2' is a number");
+  CHECK(head("t,v\n0.04 s,0.2 m\n") ==
+        "2: no rows: no field of '0.04 s,0.2 m' is a number; a unit stands in the header alone");
 }

@@ -22,8 +22,8 @@ TEST_CASE("reader: blank lines end a run, however many", "[text]") {
   CHECK(rows({"0 1\n# a comment is no break\n1 2\n"}) == "0 1 | 1 2");
   CHECK(rows({"t,v\n0,1\n\nt,v\n0,2\n"}) == "0 1 || 0 2");  // each run under its own header
   CHECK(rows({"t,v\n0,1\nt,v\n1,2\n"}) ==
-        "FILE:3: field 1 (t): 't' is not a number; write NaN for a missing reading, # before a "
-        "line that is no row, and a blank line before another run");
+        "FILE:3: field 1 (t): 't' is the header again; put a blank line before it, or give the "
+        "files one by one");
 }
 
 TEST_CASE("reader: files in order, a run break between them", "[text]") {
