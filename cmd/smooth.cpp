@@ -168,7 +168,7 @@ class RunOfPipe {
     else take(selection_.push(t, y));
   }
   /// The place across x, where a file has it.
-  void push_across(double t, double x, double y) { places_.push_back({t, {x, y}}); }
+  void push_across(double t, double x, double y) { places_.push_back({t, x, y}); }
   void finish(Tool& tool, Told& told) {
     take(selection_.finish());
     told.add(selection_, name_, taken_);
@@ -201,16 +201,17 @@ class RunOfPipe {
   }
   /// Tells a roll that is oblique to the axes of a video: its x is not the way.
   void tell_oblique(Tool& tool, const Stretch& kept) const {
-    std::array<double, 2> least{INFINITY, INFINITY};
-    std::array<double, 2> most{-INFINITY, -INFINITY};
-    for (const Place& place : places_) {
-      if (place.t < kept.from || place.t > kept.to) continue;
-      for (std::size_t k = 0; k < 2; ++k) {
-        least[k] = std::fmin(least[k], place.xy[k]);
-        most[k] = std::fmax(most[k], place.xy[k]);
+    const auto range = [&](std::size_t of) {
+      double least = INFINITY;
+      double most = -INFINITY;
+      for (const auto& place : places_) {
+        if (place[0] < kept.from || place[0] > kept.to) continue;
+        least = std::fmin(least, place[of]);
+        most = std::fmax(most, place[of]);
       }
-    }
-    const double ratio = (most[1] - least[1]) / (most[0] - least[0]);
+      return most - least;
+    };
+    const double ratio = range(2) / range(1);
     if (ratio > levels::oblique)
       tool.warn(name_, fmt::format("y changes by {:.2g} times as much as x, so that x is not the "
                                    "way: turn the axes along the motion, or give a column "
@@ -240,11 +241,7 @@ class RunOfPipe {
   std::size_t taken_ = 0;  // whose selection is known
   std::size_t roll_ = 0;
   double begin_ = 0, end_ = 0;
-  struct Place {
-    double t;
-    std::array<double, 2> xy;
-  };
-  std::vector<Place> places_;
+  std::vector<std::array<double, 3>> places_;  // t, x, y
 };
 
 /// Reads the runs, and writes them.
