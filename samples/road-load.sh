@@ -114,7 +114,7 @@ awk -F '\t' -v m="$m" -v T="$T" -v p="$p" -v pressure="$pressure" -v TM="${TM:-$
   /^##/ { next }
   /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) name[i] = $i; next }
   { for (i = 1; i <= NF; i++) { plain = name[i]; sub(/\[.*/, "", plain); at[plain] = $i } }
-  function line(name, value, sigma, unit) { printf "%s\t%.7g\t%s\t%s\n", name, value, sigma == "" ? "" : sprintf("%.2g", sigma), unit }
+  function line(name, value, sigma, unit) { printf "%s\t%.7g\t%s\t%s\n", name, value, (sigma == "" ? "" : sprintf("%.2g", sigma)), unit }
   END {
     weight = m * 9.81
     per[0] = 1; per[1] = 1 / 3.6; per[2] = 1 / 12.96

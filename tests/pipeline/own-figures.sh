@@ -221,7 +221,7 @@ for i in {1..17}; do
   names+=("$scratch/a solid cylinder on the second rubber mat, try no. $((i + 10)).csv")
   cp "$scratch/CR.csv" "${names[-1]}"
 done
-for n in 1 5 17 ${LONG:+4 9 16}; do
+for n in ${LONG:+4 9 16} 1 5 17; do
   samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n runs"
   [ "$(grep -oE '<title>(a[^<]*…|…[12][0-9](:|<))' "$scratch/names.svg" | sort -u | grep -c .)" = $((n > 16 ? 16 : n)) ] ||
     complain "fig4 of $n runs: $(grep -o '<title>.*' "$scratch/names.svg")"
