@@ -303,9 +303,11 @@ double ways_ratio(std::span<const double> t, std::span<const double> x, std::spa
   if (by_x.size() < 10) return NAN;
   const std::size_t half = by_x.size() / 2;
   std::vector<double> ratios;
-  for (std::size_t i = half; i < by_x.size(); ++i)
-    ratios.push_back(std::abs((by_x[i] - by_x[i - half]) / (by_v[i] - by_v[i - half])));
-  return median(ratios);
+  for (std::size_t i = half; i < by_x.size(); ++i) {
+    const double ratio = std::abs((by_x[i] - by_x[i - half]) / (by_v[i] - by_v[i - half]));
+    if (!std::isnan(ratio)) ratios.push_back(ratio);  // as at rest
+  }
+  return ratios.empty() ? NAN : median(ratios);
 }
 
 }  // namespace rolling

@@ -72,7 +72,7 @@ std::optional<double> way_between_pulses(std::span<const double> t, std::span<co
 /// The way that the positions cover over that which the speeds of the same rows cover: 1 if both
 /// are of one body in one system of units. It is the median over stretches of half the rows, so
 /// that a few readings that are off do not count. Speeds are added up by trapezoids; an interval
-/// counts if all its numbers are finite. NaN for fewer than ten rows.
+/// counts if all its numbers are finite. NaN for fewer than ten rows, and at rest.
 double ways_ratio(std::span<const double> t, std::span<const double> x, std::span<const double> v);
 
 }  // namespace rolling

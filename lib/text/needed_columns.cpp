@@ -235,8 +235,8 @@ void NeededColumns::resolve(Needed& needed) {
   const bool as_is = needed.kind == Kind::as_is;
   if (first) needed.quantity = quantity;
   if (first && !as_is) needed.unit = read.unit;
-  if (quantity != needed.quantity ||
-      (!as_is && !known_quantity(quantity) && read.unit != needed.unit))
+  if (quantity != needed.quantity || (needed.kind != Kind::beside && !as_is &&
+                                      !known_quantity(quantity) && read.unit != needed.unit))
     fail("column {} is '{}', and '{}' in the runs before", *found + 1,
          shown(to_text({quantity, read.unit})), shown(to_text({needed.quantity, needed.unit})));
   const bool said = quantity == read.name || use_.contains(quantity);

@@ -115,7 +115,8 @@ inline double Reader::read(const NeededColumns::Needed& needed) {
   if (std::isnan(field.number) || !needed.clock.empty()) return read_text(needed);
   if (!needed.to_si.changes()) return field.number;
   const double value = needed.to_si(field.number);
-  if (!std::isfinite(value)) refuse(needed, "is beyond the range of a double in SI units");
+  if (!std::isfinite(value) && needed.kind != NeededColumns::Kind::beside)
+    refuse(needed, "is beyond the range of a double in SI units");
   return value;
 }
 

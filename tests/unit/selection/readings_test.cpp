@@ -340,5 +340,12 @@ TEST_CASE(
   x[47] = 9;
   CHECK(ways_ratio(t, x, v) == Approx(3.6).epsilon(1e-2));
   CHECK(std::isnan(ways_ratio(std::span(t).first(9), x, v)));
+  const std::vector<double> rest(60, 0);  // no way beside none
+  CHECK(std::isnan(ways_ratio(t, rest, rest)));
+  for (std::size_t i = 30; i < 60; ++i) {
+    x[i] = x[29];
+    v[i] = 0;
+  }
+  CHECK(ways_ratio(t, x, v) == Approx(3.6).epsilon(0.05));
   CHECK(std::isfinite(ways_ratio(std::span(t).first(10), x, v)));
 }
