@@ -95,6 +95,7 @@ Column read_column(std::string_view text) {
   if (open != std::string_view::npos && open > 0) {
     column.unit = plain_unit(trim(name.substr(open + 1, name.size() - open - 2)));
     name = trim(name.substr(0, open));
+    if (name.size() > 1 && name.ends_with('/')) name = trim(name.substr(0, name.size() - 1));
   } else {
     column.unit = take_unit_in_words(name);
   }

@@ -99,7 +99,9 @@ void NeededColumns::serve_by_units() {
   };
   for (const std::string quantity : {"t", "v", "x"})
     if (quantity == "t" ? !names("t") : !names("x") && !names("v"))
-      serve(quantity, [&](const Column& c) { return unit_of(quantity, c.unit).has_value(); });
+      serve(quantity, [&](const Column& c) {
+        return unit_of(quantity, c.unit.empty() ? unit_in_name(c.written) : c.unit).has_value();
+      });
   if (!names("t")) serve("t", [](const Column& c) { return is_clock_unit(c.unit); });
 }
 

@@ -178,6 +178,18 @@ std::string unit_at_end(std::string_view quantity, std::string_view name) {
   return std::string(name.substr(before == std::string_view::npos ? 0 : before + 1));
 }
 
+std::string unit_in_name(std::string_view name) {
+  if (is_unit(name)) return std::string(name.size() > 2 ? name : "");
+  for (auto at = name.find('/'); at != std::string_view::npos; at = name.find('/', at + 1)) {
+    std::string unit = bare_unit(trim(name.substr(at + 1)));
+    if (!read_unit(unit)) continue;
+    const std::string_view before = trim(name.substr(0, at));
+    const bool is_letter = before.size() < 2;  // s of the way
+    return is_letter || measured_by(before).empty() ? unit : "";
+  }
+  return {};
+}
+
 void note_units(std::string_view comment, std::size_t line, SaidUnits& said) {
   if (comment.starts_with("##")) return;
   std::string text =

@@ -65,6 +65,11 @@ bool is_unit(std::string_view text);
 /// free_name() makes.
 std::string unit_at_end(std::string_view quantity, std::string_view name);
 
+/// The unit that a name tells behind a slash (`Weg / cm`, `v/(m/s)`: ISO 80000-1), or the name
+/// itself if it is a unit of three letters or more: `secs`, `kph`; `hr` may be a heart rate. Empty
+/// without one, and for an angle or a pace (`rad/s`, `min/km`).
+std::string unit_in_name(std::string_view name);
+
 /// By quantity, the unit other than SI that a comment names last, as `line 3 says ms`. A message
 /// says that a column without a unit is read in SI units all the same.
 using SaidUnits = std::map<std::string, std::string>;

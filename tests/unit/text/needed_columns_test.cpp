@@ -145,6 +145,13 @@ TEST_CASE("needed columns: a choice that no name made is told", "[text]") {
   CHECK(told({"t", "Altitude (ft)"}, {"t", "x"}) == "x is column 2, 'Altitude', by its unit");
   CHECK(told({"t", "Diameter (mm)"}, {"t", "x"}) == "x is column 2, 'Diameter', by its unit");
   CHECK(told({"Exposure (ms)", "v"}, {"t", "v"}) == "t is column 1, 'Exposure', by its unit");
+  // A unit behind a slash, as ISO 80000-1 writes it, and a name that is one.
+  CHECK(told({"Zeit/s", "Weg / cm"}, {"t", "x"}) ==
+        "t is column 1, 'Zeit/s', by its unit; x is column 2, 'Weg_/_cm', by its unit");
+  CHECK(told({"t/s", "s/m"}, {"t", "x"}) == "x is column 2, 's/m', by its unit");
+  CHECK(told({"t/s", "v/(m/s)", "w/(rad/s)"}, {"t", "v"}).empty());
+  CHECK(told({"secs", "cad", "hr", "km", "kph"}, {"t", "v"}) ==
+        "t is column 1, 'secs', by its unit; v is column 5, 'kph', by its unit");
   // What is not needed was not chosen; and what is named, or asked for by its own name, is not
   // told.
   CHECK(told({"Exposure (ms)", "v"}, {"v"}).empty());
@@ -153,6 +160,10 @@ TEST_CASE("needed columns: a choice that no name made is told", "[text]") {
 }
 
 TEST_CASE("needed columns: a column that is absent", "[text]") {
+  // An angle over a time is no time, a pace no length, and two letters may be anything.
+  for (const char* name : {"rad/s", "deg/min", "hr", "ms"})
+    CHECK(output({name, "x"}, {}, {"t"}).find("there is no column 't'") == 0);
+  CHECK(output({"t", "min/km"}, {}, {"x"}).find("there is no column 'x'") == 0);
   CHECK(output({"t[s]", "w[rad/s]"}) ==
         "there is no column 'v' among t[s], w[rad/s]; say --use v=COLUMN");
   // The case of letters matters in short names.
