@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cfenv>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -59,10 +60,18 @@ std::vector<std::string> LinesOfRuns::all() const {
 
 namespace {
 
+const char* program_name() {
+#if defined(__APPLE__) || defined(__FreeBSD__)
+  return ::getprogname();
+#else
+  return program_invocation_short_name;
+#endif
+}
+
 /// The terminate handler: where nothing catches an exception, before Tool::run() or while a message
 /// is being made, memory has run out.
 [[noreturn]] void report_uncaught() {
-  write_message(program_invocation_short_name, "out of memory");
+  write_message(program_name(), "out of memory");
   ::_exit(trouble);
 }
 
