@@ -43,6 +43,18 @@ cut -d , -f 1,2 samples/CR.csv >"$scratch/run.csv"
 says man/rolling.7 "$(smooth -q --coast "$scratch/run.csv" | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
   printf "So a = (%.2f \\(+- %.2f) mm is the shift D at 1 m/s, and b = %.3f \\(+- %.3f.", 1e3 * $1, 1e3 * $2, $3, $4 }')"
 
+# smooth(1): what half a second of rest brings, in 12 runs.
+says man/smooth.1 'rows up to half a second after the stop .Pq Fl Fl from , Fl Fl to make sigma_b a third smaller'
+for seed in $(seq 12); do
+  simulate --scene samples/CR.toml --sensor pasco --seed "$seed" >"$scratch/run.csv"
+  smooth -q --coast -c x "$scratch/run.csv" >"$scratch/roll"
+  read -r from to <<<"$(awk '!/^#/ { last = $1; first = first == "" ? last : first } END { print first, last + 0.5 }' "$scratch/roll")"
+  fitpower -q -K 0.5 -R 0.04 "$scratch/roll" | tail -n 1
+  smooth -q --from "$from" --to "$to" -c x "$scratch/run.csv" | fitpower -q -K 0.5 -R 0.04 | tail -n 1
+done | awk 'NR % 2 { roll += $4; next } { rest += $4; squares += (($3 - 0.215) / $4)^2 }
+  END { print rest / roll, squares; exit !(NR == 24 && rest / roll > 0.55 && rest / roll < 0.75 && squares < 26) }' ||
+  complain 'rows of the rest do not bring what smooth(1) says'
+
 # README: the row of its first command in words, with C_rr; and of what the samples were made.
 says README.md "$(smooth -q --coast samples/CR.csv | fitpower -q -K 0.5 -R 0.04 | awk '!/^#/ {
   printf "**D = %.2f(%.0f) mm · (v in m/s)^%.3f(%.0f).** Extrapolated to 1 m/s, the force of the mat acts %.2f mm ahead of the lowest point, and C_rr = D/R = %.3f.",
