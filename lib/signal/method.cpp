@@ -2,6 +2,7 @@
 #include "signal/method.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -66,8 +67,9 @@ std::optional<SignalOptions> signal_options(std::span<const SignalMethod> method
     if (key == "width") in >> options.width.samples;
     else if (key == "seconds") in >> options.width.seconds;
     else if (key == "order") in >> options.order;
-  // A word is unknown, or a parameter missing, superfluous or not in its shortest form.
-  if (describe(options) != words) return {};
+  // A word is unknown, or a parameter missing, superfluous, not in its shortest form, or one that
+  // libc++ reads as infinite.
+  if (describe(options) != words || !std::isfinite(options.width.seconds)) return {};
   try {
     make_signal(options);
   } catch (const Error&) {
