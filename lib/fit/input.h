@@ -67,8 +67,8 @@ struct FitOptions {
   bool fit_steepness = false;  ///< so is the factor of the height of a road
   bool fit_x0 = false;         ///< so is where each run of speeds begins on it
   double min_speed = 0;        ///< rows slower than this are not fitted [m/s]
-  /// Filters that the software of a sensor may have applied to the speeds (velocity route, 30 or
-  /// more rows, no known filter): differences of x, and for comparison means of v.
+  /// Filters that the software of a sensor may have applied to the speeds (velocity route,
+  /// levels::least_tested rows, no known filter): differences of x, and for comparison means of v.
   std::vector<LinearFilter> possible_filters;
   bool robust = false;  ///< bisquare loss instead of squares; not for filtered columns
 };

@@ -24,10 +24,11 @@ SeenNoise seen_noise(const Fitted&, Matrix Q);
 
 /// The covariance of a fit, R^-1 M R^-T, where M is the covariance of Q^T e and e is the noise of
 /// the residuals. (It is called a sandwich estimator, and M its meat.) For known filters it is
-/// exact, otherwise the classical s^2 (J^T J)^-1. With 30 or more rows the noise is tested (for
-/// known filters the noise of the raw column). If it is not white (Ljung and Box), the covariance
-/// is that of Newey and West, already at 10 % if neighbouring residuals are positively correlated;
-/// otherwise, if the variance is uneven at 1 %, along the runs or between them, it is HC3.
+/// exact, otherwise the classical s^2 (J^T J)^-1. With levels::least_tested rows the noise is
+/// tested (for known filters the noise of the raw column). If it is not white (Ljung and Box), the
+/// covariance is that of Newey and West, already at 17 % if neighbouring residuals are positively
+/// correlated; otherwise, if the variance is uneven at 1 %, along the runs or between them, it is
+/// HC3.
 Uncertainty uncertainty_of(const Fitted&, Matrix Q);
 inline Uncertainty uncertainty_of(const Fitted& fit) {
   return uncertainty_of(fit, orthonormal(fit.system(), fit.minimum));

@@ -218,6 +218,12 @@ class Remarks {
               "better law",
               p_of(found->p), 1e3 * found->e, 1e3 * found->sigma,
               std::fmod(found->phase * 180 / std::numbers::pi + 360, 360), sigmas_));
+    if (fit_.route == Route::velocity && r_.n < levels::least_tested &&
+        r_.errors == Errors::classical)
+      tool_.warn(
+          run_, fmt::format("{} speeds do not show whether a program smoothed them: if one did, {} "
+                            "are too small",
+                            r_.n, sigmas_));
     if (noise_is_correlated(r_) && !tool_.checks) tell_not_white();
     else if (r_.reversals <= levels::few_reversals && r_.errors != Errors::uneven)
       tool_.warn(run_,
