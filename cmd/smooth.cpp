@@ -62,6 +62,11 @@ std::string end_of(const FreeRoll& roll) {
         "the speed grows again at {:.12g} s: if the body rolled back, make those speeds negative, "
         "and fit the slope",
         roll.after);
+  if (roll.how == FreeRoll::End::stays)
+    return fmt::format(
+        "the speed stays at {:.3g} m/s from {:.12g} s on, and not at 0: if the body rests there, "
+        "subtract that from all speeds",
+        roll.speed, roll.after);
   return fmt::format("something stopped the body at {:.12g} s", roll.after);
 }
 
@@ -98,7 +103,8 @@ class Told {
                              outliers_ > 10 ? ", ..." : ""));
     if (rolls_ == 1) tool_.warn(one_);
     constexpr std::array how{"rolled to rest", "stopped by something", "still rolling at the end",
-                             "slow before the speed grows again"};
+                             "slow before the speed grows again",
+                             "at rest with another speed than 0"};
     std::string ends;
     for (std::size_t i = 0; i < how.size(); ++i)
       if (ends_[i] > 0) add_item(ends, fmt::format("{} {}", ends_[i], how[i]));
@@ -112,7 +118,7 @@ class Told {
   std::string keeps_;
   bool all_rolls_;
   std::size_t outliers_ = 0, runs_ = 0, rolls_ = 0, kept_ = 0, rows_ = 0;
-  std::array<std::size_t, 4> ends_{};
+  std::array<std::size_t, 5> ends_{};
   std::string times_, one_;
 };
 

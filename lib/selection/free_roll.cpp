@@ -100,7 +100,9 @@ std::pair<std::vector<FreeRoll>, double> rolls_in_means(std::span<const Sample> 
       std::max(noise_of(samples, positions, std::ldexp(step, -units.y)), of_rows.noise);
   std::vector<FreeRoll> rolls = search_rolls(samples, positions, noise, of_rows.rows);
   const auto of_run = [&](const Stretch& s) {
-    const std::size_t begin = index[s.begin];
+    // The first position behind those that are off the motion may have been read amid the push.
+    const bool behind_others = positions && s.begin == 0 && index[0] > 0;
+    const std::size_t begin = index[s.begin + behind_others];
     const std::size_t end = s.end == samples.size() ? run.size() : index[s.end - 1] + size;
     return Stretch{begin, end, run[begin].t, run[end - 1].t};
   };
@@ -108,6 +110,7 @@ std::pair<std::vector<FreeRoll>, double> rolls_in_means(std::span<const Sample> 
     roll.kept = of_run(roll.kept);
     if (roll.other) roll.other = of_run(*roll.other);
     roll.after = std::ldexp(roll.after, units.t) + run[0].t;
+    roll.speed = std::ldexp(roll.speed, units.y);
   }
   return {std::move(rolls), std::ldexp(noise, units.y)};
 }
@@ -141,6 +144,7 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
     roll.kept = same.kept;
     roll.after = same.after;
     roll.how = same.how;
+    roll.speed = same.speed;
     if (same.how == FreeRoll::End::goes_on && to < run.size()) roll.how = FreeRoll::End::is_ended;
   }
 }

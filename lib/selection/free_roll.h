@@ -18,12 +18,13 @@ struct Stretch {
 };
 
 struct FreeRoll {
-  enum class End { by_itself, is_ended, goes_on, speeds_up };
+  enum class End { by_itself, is_ended, goes_on, speeds_up, stays };
 
   Stretch kept;
   End how;  ///< at rest; by a hand, a brake, a wall, ...; not before the run is over; slow, before
-            ///< the speed grows again
-  double after;  ///< the time at which something else begins, if it does not go on
+            ///< the speed grows again, or stays as it is
+  double after;      ///< the time at which something else begins, if it does not go on
+  double speed = 0;  ///< at which it stays
   std::optional<Stretch> other{};  ///< another roll, or what may be the roll as well
 };
 

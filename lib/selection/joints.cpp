@@ -144,4 +144,18 @@ Ending Joints::before_hand(std::size_t begin, std::size_t roughly, std::size_t e
   return best;
 }
 
+double Joints::unseen(const Piece& p, double t) const {
+  const double time = positions_ ? 12 * noise_ / std::abs(p.v(t).value) : 0;
+  return std::min(time, p.duration() / 4);
+}
+
+double Joints::unseen_push(const Piece& push, const Piece& roll) const {
+  if (!is_known(push.a(push.middle()))) return 0;
+  const double v = std::abs(roll.v(roll.from).value);
+  const double T = push.duration();
+  const double share = 2 * noise_ / v;
+  const double s = positions_ ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
+  return std::min({s, T / 2, roll.duration() / 8});
+}
+
 }  // namespace rolling

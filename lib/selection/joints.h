@@ -54,6 +54,14 @@ class Joints {
   /// within a time T of no more than a quarter of the roll.
   Ending before_hand(std::size_t begin, std::size_t roughly, std::size_t end) const;
 
+  /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
+  /// back, within T deviates from the sudden change by v T/8 at most.
+  double unseen(const Piece&, double t) const;
+
+  /// The same for the end of a push of the duration T, whose force fades: its speed is
+  /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
+  double unseen_push(const Piece& push, const Piece& roll) const;
+
  private:
   double rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end) const;
 

@@ -260,7 +260,8 @@ class Search {
     const std::size_t spare =
         std::min<std::size_t>(positions_ ? 1 : 2, (s.end - s.begin) / 25) + rows_ / 2;
     if (s.end < s.begin + 2 * spare + Piece::few) return {};
-    if (s.begin > 0) s.begin += spare;
+    // A few positions at a low rate: the first may have been read amid the push.
+    if (s.begin > 0) s.begin += std::max<std::size_t>(spare, positions_);
     if (s.end < samples_.size()) s.end -= spare;
     s.end = amid_equal(s);
     // A rest at the end of the run may be too short for a piece of its own.
@@ -268,7 +269,20 @@ class Search {
       how = FreeRoll::End::by_itself;
     if (!positions_ && is_slow(c) && is_driven_behind(c)) how = FreeRoll::End::speeds_up;
     const double after = samples_[std::min(pieces_[c.last].end, samples_.size() - 1)].t;
-    return FreeRoll{s, how, after};
+    FreeRoll roll{s, how, after};
+    if (how == FreeRoll::End::by_itself && !positions_) rest_or_not(c, roll);
+    return roll;
+  }
+
+  /// Of speeds that seem to end at rest: they may stay at another one than 0, or fall on behind the
+  /// end of the run.
+  void rest_or_not(const Chain& c, FreeRoll& roll) const {
+    const bool at_end = pieces_[c.last].end == samples_.size();
+    Estimate behind{samples_.back().y, noise_};
+    if (!at_end) behind = pieces_[c.last + 1].v(pieces_[c.last + 1].to);
+    if (std::abs(behind.value) < std::max(4 * behind.sigma, noise_ / 3)) return;
+    roll.how = at_end ? FreeRoll::End::goes_on : FreeRoll::End::stays;
+    roll.speed = behind.value;
   }
 
   /// The first sample behind the push, wherever the joint lies.
@@ -282,7 +296,8 @@ class Search {
     // A speed is made of positions on either side of its time, also of one before the joint.
     const double t = samples_[begin].t;
     const double joint = positions_ ? std::midpoint(samples_[begin - 1].t, t) : t;
-    const double seen = joint + std::max(unseen(first, t), unseen_push(before, first));
+    const double seen =
+        joint + std::max(joints_.unseen(first, t), joints_.unseen_push(before, first));
     while (samples_[begin].t < std::min(seen, first.to)) ++begin;
     return begin;
   }
@@ -303,7 +318,7 @@ class Search {
       how = slow_end(c, how, sudden, s);
     else if (is_driven_behind(c)) s.end = std::min(s.end, before_held(last));
     if (how == FreeRoll::End::is_ended) {
-      const double t = samples_[s.end - 1].t - unseen(last, samples_[s.end - 1].t);
+      const double t = samples_[s.end - 1].t - joints_.unseen(last, samples_[s.end - 1].t);
       while (s.end > std::max(last.begin, s.begin) + 1 && samples_[s.end - 1].t > t) --s.end;
     }
     return how;
@@ -360,25 +375,6 @@ class Search {
     if (by_hand > any || by_hand > by_itself - rather) return how;
     s.end = std::min(s.end, hand);
     return by_hand > by_itself - five_sigma ? how : FreeRoll::End::is_ended;
-  }
-
-  /// The time for which positions do not show a change: a body that a hand moves from rest to v, or
-  /// back, within T deviates from the sudden change by v T/8 at most.
-  double unseen(const Piece& p, double t) const {
-    const double time = positions_ ? 12 * noise_ / std::abs(p.v(t).value) : 0;
-    return std::min(time, p.duration() / 4);
-  }
-
-  /// The same for the end of a push of the duration T, whose force fades: its speed is
-  /// v (1 + cos(pi s/T))/2 before the release, which moves the body by v pi^2 s^3/(12 T^2) less.
-  double unseen_push(const Piece& push, const Piece& roll) const {
-    if (!is_known(push.a(push.middle()))) return 0;
-    const double v = std::abs(roll.v(roll.from).value);
-    const double T = push.duration();
-    const double share = 2 * noise_ / v;
-    const double s =
-        positions_ ? std::cbrt(12 * share * T * T / 9.87) : T * std::sqrt(share / 2.47);
-    return std::min({s, T / 2, roll.duration() / 8});
   }
 
   std::span<const Sample> samples_;

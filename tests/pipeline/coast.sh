@@ -17,7 +17,7 @@ within() {  # NAME FILE COLUMN EARLIEST LATEST-START EARLIEST-END LATEST
         print name ": from " first " to " last ", not from " a ".." b " to " c ".." d; exit 1 } }'
 }
 scratch=$(mktemp)
-trap 'rm -f "$scratch"' EXIT
+trap 'rm -f "$scratch" "$scratch.kept"' EXIT
 stops() { simulate --scene "samples/$1.toml" --dt 0.5 | awk 'END { print $1 + 1.5 }'; }
 after() { awk -v t="$1" -v dt="$2" 'BEGIN { print t + dt }'; }
 check() { within "$1" "$2" "$3" 1.5 2.1 "$(after "$4" -0.75)" "$(after "$4" 0.04)"; }
@@ -44,6 +44,14 @@ for law in "0.00187 0.215" "6.1e-4 0.34" "0.0012 0.6" "3e-4 0"; do
   done
 done
 ((ended <= 4)) || { echo "$ended of 40 rolls are said to be stopped by something"; exit 1; }
+# At low rates neither is a position of the push kept.
+for rate in 3 4 5 6 8; do
+  for seed in 1 2 3 4 5; do
+    simulate --scene samples/CR.toml --sensor pasco --rate $rate --seed $seed >"$scratch"
+    smooth -q --coast -c x "$scratch" | awk -v what="rate $rate, seed $seed" '/^[0-9]/ { print what ": from " $1; exit $1 < 1.5 }' >"$scratch.kept" ||
+      { cat "$scratch.kept"; exit 1; }
+  done
+done
 # A fit of what is kept is right within 4 standard errors.
 simulate --scene samples/SR.toml --sensor pasco --seed 20 | smooth -q --coast -c x -w 1 | fitpower -q --route position -K 0.83 -R 0.04 |
   awk '!/^#/ { if (($1 - 1.78e-3)^2 > 16 * $2^2 || ($3 - 0.255)^2 > 16 * $4^2) { print; exit 1 } }'

@@ -74,6 +74,56 @@ TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is 
   CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
 }
 
+// An instrument that shows 0.02 m/s at rest, and a car whose log ends at 4 m/s.
+TEST_CASE("free_roll: speeds that do not end at 0 are not at rest", "[signal]") {
+  for (const double at_rest : {0.0, 0.0001, 0.005, 0.02})
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      const Series e = noise(120, seed);
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < e.size(); ++i) {
+        const double t = 0.04 * static_cast<double>(i);
+        const double v = t < 1 ? 0 : std::max(0.0, 0.5 - 0.2 * (t - 1));
+        run.push_back({t, at_rest + v + 1e-3 * e[i]});
+      }
+      const FreeRoll roll = free_roll(run, false);
+      CAPTURE(at_rest, seed, roll.speed);
+      const bool is_rest = at_rest < 0.001;
+      CHECK(roll.how == (is_rest ? FreeRoll::End::by_itself : FreeRoll::End::stays));
+      CHECK(std::abs(roll.speed - (is_rest ? 0 : at_rest)) < 1e-3);
+    }
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
+    const Series e = noise(290, seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const double t = 0.5 * static_cast<double>(i);
+      run.push_back({t, 33 * std::exp(-t / 70) + 0.03 * e[i]});
+    }
+    CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
+  }
+}
+
+// A push lasts 0.4 s: at low rates one position is read amid it.
+TEST_CASE("free_roll: no position of the push is kept at a low rate", "[signal]") {
+  for (const double rate : {3.0, 4.0, 5.0, 6.0, 8.0})
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const Series e = noise(60, seed);
+      std::vector<Sample> run;
+      for (std::size_t i = 0; i < e.size(); ++i) {
+        const double t = (static_cast<double>(i) + 0.1 * seed) / rate;
+        const double push = std::clamp(t - 1, 0.0, 0.4);
+        const double since = std::clamp(t - 1.4, 0.0, 4.0);
+        const double x =
+            0.5 * (push - 0.4 / std::numbers::pi * std::sin(std::numbers::pi * push / 0.4)) / 2 +
+            since * (0.5 - since / 16);
+        run.push_back({t, x + 4e-4 * e[i]});
+        if (t > 6) break;
+      }
+      const FreeRoll roll = free_roll(run, true);
+      CAPTURE(rate, seed, roll.kept.from);
+      CHECK(roll.kept.from >= 1.4);
+    }
+}
+
 // Of 40,000 rows means of 40 are searched first; the search among the rows around the roll tells
 // when the hand comes.
 TEST_CASE("free_roll: in a long run, too, a hand is told to a few rows", "[signal]") {

@@ -165,7 +165,7 @@ TEST_CASE("free_roll: pushes, holds, noise and rounding: right, or told to be in
             const bool usual = made.hold + made.again == 0 && noise <= 5e-4 && resolution <= 1e-3;
             good += usual;
             try {
-              const auto [kept, how, after, other] = free_roll(made.run, positions);
+              const auto [kept, how, after, speed, other] = free_roll(made.run, positions);
               right += made.right(kept);
               told += !made.right(kept) && other;
               told_of_good += usual && other;

@@ -204,7 +204,7 @@ TEST_CASE("free_roll: a slow body that a hand stops does not end by itself", "[s
       const auto natural = made_run(25, positions ? 3e-4 : 2e-3, seed, positions, 1, phase),
                  hand = caught_run(caught, 0.2, seed, positions, phase);
       by_itself += free_roll(natural, positions).how == FreeRoll::End::by_itself;
-      const auto [kept, how, after, other] = free_roll(hand, positions);
+      const auto [kept, how, after, speed, other] = free_roll(hand, positions);
       if (how != FreeRoll::End::is_ended) continue;
       ++is_ended;
       CHECK(hand[kept.end - 1].t + phase < caught + 0.06);
