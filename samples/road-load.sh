@@ -9,8 +9,9 @@
 #   --rotating KG    equivalent mass of the rotating parts [kg]: the sum of I/r^2 of the wheels, or, by
 #                    GTR 15, 3 % of the mass in running order and 25 kg
 #   --no-f1          F = f0 + f2 v^2: if f1 is 0, f0 and f2 come out seven times more precisely
-#   --slope S|fit    rise of the road along OUT, or what the height lacks (with --back fit, else 0)
-#   --height FILE    height of the road [m] over the way x [m]; --x0 X,... starts of the runs (fitted)
+#   --slope S|fit    slope along OUT, to which --height adds (fitted if there is --back, else 0)
+#   --height FILE    height of the road [m] over the way x [m]. Hills speed a car up, so that the runs are
+#                    fitted as they are: cut them to the coast; --x0 X,...: x of their first rows (fitted)
 #   --wind W|fit     head wind of OUT [m/s]; fit finds one wind for all runs
 #   --column NAME=COLUMN   use this column as t or v, as --use of the tools; may be repeated
 #   -T C -p KPA      temperature and pressure of the day: prints C_d A and the load at the standard too
@@ -71,6 +72,8 @@ one_way=''
 [ "$slope$height" ] || { slope=0 && one_way=1; }
 road=(${height:+--height "$height"} ${x0:+--x0 "$x0"} ${slope:+--slope "$slope"})
 [ "$wind" != fit ] || [ "$measured" = 0 ] || wrong '--wind fit: the wind is corrected by the fit, not by --anemometer'
+select=(--coast)
+[ -z "$height" ] || select=(-w 1)
 make_scratch
 
 # The free coast of each run. With -R 1 a law D is the force over the weight: D = F/(m g).
@@ -78,7 +81,7 @@ number=0
 coast() {  # FILE WAY
   number=$((number + 1))
   printf '## run %s\n' "$(printf %s "${1##*/}" | tr '[:cntrl:]' '?')"
-  smooth --coast -c v ${column[@]+"${column[@]/#/--use=}"} -- "$1" | awk -F '\t' -v way="$2" '
+  smooth "${select[@]}" -c v ${column[@]+"${column[@]/#/--use=}"} -- "$1" | awk -F '\t' -v way="$2" '
     /^## run / { next }
     /^##/ { print; next }
     /^# / { sub(/^# /, ""); for (i = 1; i <= NF; i++) { if ($i ~ /^t\[/) t = i; if ($i ~ /^v\[/) v = i }
@@ -93,7 +96,7 @@ for file in ${back[@]+"${back[@]}"}; do echo; coast "$file" -1; done >>"$scratch
 if [ "$one_way" ]; then
   ! awk -F '\t' '!/^#/ && NF { $2 < 0 ? down = 1 : up = 1 } END { exit !(up && down) }' "$scratch/runs" ||
     wrong 'runs both ways: give those of the way back behind --back, or say --slope fit'
-  echo "road-load.sh: runs one way: the road is taken for level" >&2
+  echo "road-load.sh: runs one way: the road is taken for level; those of the way back go behind --back" >&2
 fi
 K=$(awk "BEGIN { print $rotating / $m }")
 fit() {
@@ -102,9 +105,10 @@ fit() {
 # The check says whether f1 may be left out.
 fit ${no_f1:+--check} "$scratch/runs" >"$scratch/row" || [ -s "$scratch/row" ] || exit 2
 
-awk -F '\t' '/^# d0/ { next } /^[^#]/ && ($1 < 3e-4 || $1 > 0.03) { printf "C_rr is %.2g: wheels have 0.0005 to 0.025; is the unit of the speed in the header, and the wind in m/s?\n", $1 }' \
+awk -F '\t' '/^# d0/ { next } /^[^#]/ && ($1 < 3e-4 || $1 > 0.03) { printf "C_rr is %.2g: wheels have 0.0005 to 0.025; is the unit of the speed in the header, and the wind in m/s? Is the road level?\n", $1 }' \
   "$scratch/row" >"$scratch/doubt"
 [ ! -s "$scratch/doubt" ] || echo "road-load.sh: $(cat "$scratch/doubt")" >&2
+! grep -q 'C_rr is -' "$scratch/doubt" || exit 1
 
 # The numbers of the row in newtons and km/h; and, after GTR 15, Annex 4, those at the standard:
 # f0* = (f0 - w1 - K1)(1 + K0 (T - 20)), f1* = f1 (1 + K0 (T - 20)), f2* = K2 f2, with K0 = 8.6e-3/K,
