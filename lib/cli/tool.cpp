@@ -163,7 +163,9 @@ Reader& Tool::read_file(const std::string& file, std::vector<std::string> order)
 }
 
 Reader& Tool::open(ReaderOptions options, std::vector<std::string> order) {
-  if (options.files.empty() || std::ranges::count(options.files, "-") > 0) {
+  const auto named = std::ranges::count(options.files, "-");
+  if (named > 1) fail("standard input (-) is named twice");
+  if (options.files.empty() || named > 0) {
     if (std::exchange(standard_input_taken_, true))
       fail("standard input cannot be read twice: name a file for one of the two");
     if (::isatty(STDIN_FILENO)) warn("reading columns from the terminal; end with Ctrl-D");

@@ -204,11 +204,12 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
               double slope, const FitOptions& options) {
   if (slope != 0 || options.fit_slope)
     if (const double way = way_before_turn(position, t, rows); way != 0) return way;
+  const std::vector<double> smooth = medians_of_five(rows);
   const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
-  const double all = sum(rows.begin(), rows.end());
-  if (!position) return all < 0 ? -1 : 1;
-  const auto half = static_cast<std::ptrdiff_t>(rows.size() / 2);
-  return sum(rows.end() - half, rows.end()) < sum(rows.begin(), rows.begin() + half) ? -1 : 1;
+  if (!position) return sum(smooth.begin(), smooth.end()) < 0 ? -1 : 1;
+  const auto half = static_cast<std::ptrdiff_t>(smooth.size() / 2);
+  return sum(smooth.end() - half, smooth.end()) < sum(smooth.begin(), smooth.begin() + half) ? -1
+                                                                                             : 1;
 }
 
 std::vector<Response> responses_of(const std::vector<Run>& all) {

@@ -71,6 +71,7 @@ class Remarks {
       ways += fmt::format("; if some rolled back, make their {}, and say --slope fit",
                           fit_.route == Route::position ? "x fall" : "v negative");
     else if (!options_.fit_slope) ways += "; if they rolled in both directions, --slope fit";
+    if (options_.law->drag >= 0 && !options_.fit_wind) ways += "; if there was wind, --wind fit";
     const double K = fit_.runs.front().body.K;
     const auto differs = [&](const Run& run) { return std::abs(run.body.K - K) > 0; };
     ways += std::ranges::any_of(fit_.runs, differs) ? "; the order of K is that of the files"
@@ -136,10 +137,11 @@ class Remarks {
   void beginning() {
     const auto found = disturbed_beginning(fit_.route, fit_.runs, options_);
     if (found && found->p <= levels::beginning / fits_)
-      object(fit_.runs[found->run].name,
-             fmt::format("the first {} rows follow another motion ({}), as if a hand were still "
-                         "on: cut off {:.2g} s",
-                         found->rows, p_of(found->p), found->time));
+      object(
+          fit_.runs[found->run].name,
+          fmt::format("the first {} rows follow another motion than the others ({}): if a hand was "
+                      "still on, cut off {:.2g} s; else something changed within the roll",
+                      found->rows, p_of(found->p), found->time));
   }
 
   void causes() {

@@ -87,7 +87,7 @@ fit --each ${each[@]+"${each[@]}"} "$new/rolls" >"$table" || {
 }
 for file in ${unread[@]+"${unread[@]}"}; do
   [ "$check" ] && ! is_among "$file" ${accept[@]+"${accept[@]}"} || continue
-  say "$file: a table without a run: --accept '$file' if it is none"
+  say "$file: no run was found in this table; if it is none, --accept '$file'"
   failed=1
 done
 law=$table

@@ -93,7 +93,7 @@ for table in empty.csv binary.csv start.txt frames.csv; do
     frames.csv) sed '1s/Time (s)/Frame/' runs/101.csv >"class/$table" ;;
   esac
   lab --check -K 0.5 -R 0.04 class && complain "$table passes: $(cat said)"
-  grep -qF "lab.sh: $table: a table without a run" said || complain "$table is not named: $(cat said)"
+  grep -qF "lab.sh: $table: no run was found in this table" said || complain "$table is not named: $(cat said)"
   lab --check --accept $table -K 0.5 -R 0.04 class || complain "$table fails, though accepted: $(cat said)"
   grep 'no run of this name' said && complain "$table is sought among the runs"
   rm "class/$table"
