@@ -275,14 +275,15 @@ class Search {
   }
 
   /// Of speeds that seem to end at rest: they may stay at another one than 0, or fall on behind the
-  /// end of the run.
+  /// end of the run. The errors of speeds that are made of positions follow each other.
   void rest_or_not(const Chain& c, FreeRoll& roll) const {
     const bool at_end = pieces_[c.last].end == samples_.size();
-    Estimate behind{samples_.back().y, noise_};
-    if (!at_end) behind = pieces_[c.last + 1].v(pieces_[c.last + 1].to);
-    if (std::abs(behind.value) < std::max(4 * behind.sigma, noise_ / 3)) return;
+    const Piece& next = pieces_[c.last + !at_end];
+    if (!at_end && next.size() < 2 * Piece::few) return;
+    const Estimate v = at_end ? Estimate{samples_.back().y, noise_ / 2} : next.v(next.to);
+    if (std::abs(v.value) < std::max(8 * v.sigma, noise_ / 3)) return;
     roll.how = at_end ? FreeRoll::End::goes_on : FreeRoll::End::stays;
-    roll.speed = behind.value;
+    roll.speed = v.value;
   }
 
   /// The first sample behind the push, wherever the joint lies.
