@@ -100,7 +100,7 @@ class Profile {
   /// side of the wall and on it. The search starts at a place nearby, and ahead of it.
   Visit visit(double to, const Visit& from) const {
     if (!wall_) return searched(to, from);
-    const Visit wall = at_wall();
+    Visit wall = at_wall();
     const bool is_b = j_ == 1;  // the coefficients a and b are the first numbers
     if (from.fit == wall_) return is_b ? wall : searched(to, from);
     const std::vector<double> theta = moved(from.minimum.theta, ahead(from, to));
