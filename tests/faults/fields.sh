@@ -41,7 +41,7 @@ e5	e5
 \\a1	?1
 %s%n	%s%n
 $long	${long:0:40}...
-t	t
+tt	tt
 END
 )
 names=('' t v a D)
