@@ -74,6 +74,20 @@ TEST_CASE("free_roll: a body that is fast in the last rows, which are equal, is 
   CHECK(free_roll(run, false).how == FreeRoll::End::goes_on);
 }
 
+TEST_CASE("free_roll: positions that end at a tenth of the speed are not at rest", "[signal]") {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const Series e = noise(112, seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      const double t = 0.04 * static_cast<double>(i);
+      run.push_back({t, t * (0.5 - 0.05 * t) + 1e-5 * e[i]});
+    }
+    const FreeRoll roll = free_roll(run, true);
+    CAPTURE(seed, roll.kept.to);
+    CHECK(roll.how == FreeRoll::End::goes_on);
+  }
+}
+
 // An instrument that shows 0.02 m/s at rest, and a car whose log ends at 4 m/s.
 TEST_CASE("free_roll: speeds that do not end at 0 are not at rest", "[signal]") {
   for (const double at_rest : {0.0, 0.0001, 0.005, 0.02})

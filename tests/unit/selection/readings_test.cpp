@@ -42,6 +42,22 @@ TEST_CASE("readings: those that were held are told", "[signal]") {
   CHECK(told >= 0.98 * all);  // 25 rows each of 500 are 20 readings
 }
 
+// A sensor of 10 or 7 Hz in a log of 25 Hz: its readings stay for two rows or three, or for three
+// or four, which have no common multiple.
+TEST_CASE("readings: those that stay for unequal numbers of rows are held", "[signal]") {
+  for (const double rate : {10.0, 7.0})
+    for (const double unit : {0.0, 0.01})
+      for (unsigned seed = 1; seed <= 10; ++seed) {
+        const Series now = speeds(1, 0.1, unit, 0.1, seed);
+        Series log;
+        for (std::size_t i = 0; i < now.size(); ++i)
+          log.push_back(now[static_cast<std::size_t>(static_cast<double>(i) * rate / 25)]);
+        CAPTURE(rate, unit, seed);
+        CHECK(are_held(log));
+        CHECK(!are_held(now));
+      }
+}
+
 // Whole km/h fall in steps of one, which may be a grid; that each of them stays for two rows is
 // none.
 TEST_CASE("readings: whole numbers that were held for two rows each", "[signal]") {
