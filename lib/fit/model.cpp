@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -204,12 +205,20 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
               double slope, const FitOptions& options) {
   if (slope != 0 || options.fit_slope)
     if (const double way = way_before_turn(position, t, rows); way != 0) return way;
+  // A false echo counts as ten standard deviations.
   const std::vector<double> smooth = medians_of_five(rows);
-  const auto sum = [](auto first, auto last) { return std::accumulate(first, last, 0.0); };
-  if (!position) return sum(smooth.begin(), smooth.end()) < 0 ? -1 : 1;
-  const auto half = static_cast<std::ptrdiff_t>(smooth.size() / 2);
-  return sum(smooth.end() - half, smooth.end()) < sum(smooth.begin(), smooth.begin() + half) ? -1
-                                                                                             : 1;
+  std::vector<double> off(rows.size());
+  std::ranges::transform(rows, smooth, off.begin(), std::minus());
+  const double most = 10 * deviation(off);
+  double all = 0;
+  double risen = 0;  // the later half less the earlier one
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double y = smooth[i] + std::clamp(off[i], -most, most);
+    all += y;
+    if (2 * i + 2 <= rows.size()) risen -= y;
+    if (2 * i >= rows.size()) risen += y;
+  }
+  return (position ? risen : all) < 0 ? -1 : 1;
 }
 
 std::vector<Response> responses_of(const std::vector<Run>& all) {
