@@ -96,7 +96,7 @@ if [ "$runs" -gt 1 ]; then
   fitpower --digits 6 ${checks[@]+"${checks[@]}"} --route fits "$table" >"$law" || {
     [ $? = 1 ] || exit 1
     failed=1
-    [ "$slope" != 0 ] || awk "BEGIN { exit $(columns "$law" p) < 0.01 }" ||
+    [ "$slope" != 0 ] || awk "BEGIN { exit ($(columns "$law" p) < 0.01) }" ||
       say 'if the runs rolled in both directions: --slope fit'
   }
 fi
