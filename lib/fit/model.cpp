@@ -210,15 +210,14 @@ double way_of(bool position, const std::vector<double>& t, const std::vector<dou
   std::vector<double> off(rows.size());
   std::ranges::transform(rows, smooth, off.begin(), std::minus());
   const double most = 10 * deviation(off);
-  double all = 0;
-  double risen = 0;  // the later half less the earlier one
+  double along = 0;  // the sum of speeds; of positions that of the later half less the earlier one
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double y = smooth[i] + std::clamp(off[i], -most, most);
-    all += y;
-    if (2 * i + 2 <= rows.size()) risen -= y;
-    if (2 * i >= rows.size()) risen += y;
+    const bool is_early = 2 * i + 2 <= rows.size();
+    const bool is_late = 2 * i >= rows.size();
+    const int sign = position ? is_late - is_early : 1;
+    along += sign * (smooth[i] + std::clamp(off[i], -most, most));
   }
-  return (position ? risen : all) < 0 ? -1 : 1;
+  return along < 0 ? -1 : 1;
 }
 
 std::vector<Response> responses_of(const std::vector<Run>& all) {
