@@ -50,14 +50,22 @@ options() {
     shift
   done
 }
-variable() { name=$(printf '%s\n' "$1" | sed 's/^-*//; s/[!.]*$//; s/-/_/g'); }
+variable() {
+  name=${1#-} && name=${name#-} && name=${name%%[.!]*}
+  while [ "$name" != "${name#*-}" ]; do name=${name%%-*}_${name#*-}; done
+}
 is_count() { case $1 in '' | *[!0-9]* | ?????????*) false ;; esac; }
 is_number() { printf '%s\n' "$1" | grep -qxE '[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?'; }
 # KEY of a scene: its value, and that with its standard uncertainty: 0.5+-0.005.
-given() { sed -n "s/^$1 *= *//p" "$2" | tr -d '" '; }
-value() { given "$1" "$2" | sed 's/+-.*//'; }
+given() { sed -n "/^$1 *= */{ s///; s/[\" ]//g; p; }" "$2"; }
+value() { sed -n "/^$1 *= */{ s///; s/[\" ]//g; s/+-.*//; p; }" "$2"; }
 # of_run LIST I: the value of run number I in a list of K or R.
-of_run() { printf '%s\n' "$1" | awk -F, -v i="$2" '{ print (NF > 1 ? $i : $1) }'; }
+of_run() {
+  case $1 in
+    *,*) printf '%s\n' "$1" | cut -d , -f "$2" ;;
+    *) printf '%s\n' "$1" ;;
+  esac
+}
 # named FILE NAME: the runs in FILE; a run without a name gets that of the file NAME.
 named() {
   grep -q '^## run ' "$1" || printf '## run %s\n' "$(printf %s "${2##*/}" | tr '[:cntrl:]' '?')"
