@@ -275,13 +275,16 @@ class Search {
   }
 
   /// Of speeds that seem to end at rest: they may stay at another one than 0, or fall on behind the
-  /// end of the run. The errors of speeds that are made of positions follow each other.
+  /// end of the run. The errors of speeds that are made of positions follow each other: such a
+  /// speed is one near which half of all that follow lie.
   void rest_or_not(const Chain& c, FreeRoll& roll) const {
     const bool at_end = pieces_[c.last].end == samples_.size();
     const Piece& next = pieces_[c.last + !at_end];
-    if (!at_end && next.size() < 2 * Piece::few) return;
-    const Estimate v = at_end ? Estimate{samples_.back().y, noise_ / 2} : next.v(next.to);
+    const Estimate v = at_end ? Estimate{samples_.back().y, noise_ / 2} : next.v(next.middle());
     if (std::abs(v.value) < std::max(8 * v.sigma, noise_ / 3)) return;
+    const auto behind = samples_.subspan(at_end ? samples_.size() - 1 : next.begin);
+    const auto near = [&v](Sample s) { return std::abs(s.y - v.value) <= std::abs(v.value) / 2; };
+    if (2 * std::ranges::count_if(behind, near) < std::ssize(behind)) return;
     roll.how = at_end ? FreeRoll::End::goes_on : FreeRoll::End::stays;
     roll.speed = v.value;
   }

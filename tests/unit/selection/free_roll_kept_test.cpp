@@ -116,6 +116,21 @@ TEST_CASE("free_roll: speeds that do not end at 0 are not at rest", "[signal]") 
   }
 }
 
+// Means of seven of white noise swing slowly: some seconds of them may be level, and not at 0.
+TEST_CASE("free_roll: a rest whose errors swing is a rest", "[signal]") {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const Series e = noise(186, seed);
+    std::vector<Sample> run;
+    for (std::size_t i = 0; i + 6 < e.size(); ++i) {
+      const double t = 0.04 * static_cast<double>(i);
+      const double v = t < 1 ? 0 : std::max(0.0, 0.5 - 0.2 * (t - 1));
+      run.push_back({t, v + 0.01 * std::accumulate(&e[i], &e[i] + 7, 0.0) / 7});
+    }
+    CAPTURE(seed);
+    CHECK(free_roll(run, false).how != FreeRoll::End::stays);
+  }
+}
+
 // A push lasts 0.4 s: at low rates one position is read amid it.
 TEST_CASE("free_roll: no position of the push is kept at a low rate", "[signal]") {
   for (const double rate : {3.0, 4.0, 5.0, 6.0, 8.0})
