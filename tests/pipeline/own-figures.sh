@@ -52,17 +52,19 @@ for figure in fig1-stop fig2 fig3 fig5 energy turn; do
   grep -q "^$figure.sh: this figure is of one run, not of 2: choose it with --run" "$scratch/said" && [ ! -s "$scratch/one.svg" ] ||
     complain "$figure of two runs: $(cat "$scratch/said")"
 done
+for figure in ${LONG:+fig1 fig2 fig4 fig5} fig1-stop fig3 energy residuals; do
+  # shellcheck disable=SC2086
+  samples/figures/$figure.sh $body --law 'd0+d2*v^2' samples/CR.csv >"$scratch/law.svg" 2>"$scratch/said" || complain "$figure --law: $?"
+  grep -q '^fitpower: run .*: ' "$scratch/said" || complain "$figure does not pass on what fitpower says"
+  cmp -s "$scratch/law.svg" "$scratch/$figure.svg" && complain "$figure --law changes nothing"
+done
 names() { sed 's/two [12]/CR/; s/SR/CR/' "$1"; }
-for figure in fig1 fig1-stop fig2 fig3 fig4 fig5 energy residuals; do
+for figure in fig1 fig2 fig4 fig5 ${LONG:+fig1-stop fig3 energy residuals}; do
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body --run 2 "$scratch/two.csv" >"$scratch/one.svg" 2>/dev/null || complain "$figure --run 2: $?"
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body samples/SR.csv 2>/dev/null | names - | cmp - <(names "$scratch/one.svg") ||
     complain "$figure --run 2 is not that of its run"
-  # shellcheck disable=SC2086
-  samples/figures/$figure.sh $body --law 'd0+d2*v^2' samples/CR.csv >"$scratch/law.svg" 2>"$scratch/said" || complain "$figure --law: $?"
-  grep -q '^fitpower: run .*: ' "$scratch/said" || complain "$figure does not pass on what fitpower says"
-  cmp -s "$scratch/law.svg" "$scratch/$figure.svg" && complain "$figure --law changes nothing"
   # What rolled is not guessed, and is nothing for the samples; a radius in millimetres is told.
   for wrong_one in '-K 0.5' '-R 0.04' '-m 1.375' '--run 1' '-c x' '--law d0'; do
     in_turn 5 || continue
