@@ -131,7 +131,7 @@ TEST_CASE("agreement: the scatter of runs in one direction does not tell a slope
   simulated::Noise noise(39);
   FitOptions options;
   options.fit_slope = true;
-  for (int k = 0; k < 5; ++k) {
+  for (unsigned k = 0; k < of_many(10); ++k) {
     std::vector<Run> runs;
     for (int i = 0; i < 4; ++i)
       runs.push_back(roll({rubber.a * (1 + noise(0.01)), rubber.b}, 1e-3, 1, noise, 1e-4));
