@@ -43,6 +43,13 @@ std::string known(const char* text, double value, const char* more = "") {
   return std::isnan(value) ? "" : fmt::format(fmt::runtime(text), value, more);
 }
 
+/// Whether the value and its standard error give an interval of 95 %.
+std::string intervals(const FitResult& r) {
+  if (r.errors == Errors::none) return "";
+  return r.not_visited.empty() ? "; intervals: +- 1.96 sigma"
+                               : "; intervals: of the sum of squares";
+}
+
 /// "D = d0 + d1 v: d0 = 0.0012 +- 1e-05, d1 = 0.0005 +- 3e-05; corr d0 d1 -0.93; AICc 1.2"
 std::string described(const LawFit& fit, double least) {
   const auto& names = fit.law->coefficients;
@@ -69,9 +76,9 @@ std::string described(const LawFit& fit, double least) {
 void report(Tool& tool, const FitOfRuns& fit, const LawForm& law) {
   const FitResult& r = *fit.result;
   const char* few = r.n < levels::least_tested ? "; few rows hardly show correlated noise" : "";
-  tool.say(fmt::format("n {} ({} of freedom), errors {}{}", r.n, counted(r.freedom, "degree"),
+  tool.say(fmt::format("n {} ({} of freedom), errors {}{}{}", r.n, counted(r.freedom, "degree"),
                        kinds.at(r.errors),
-                       known(" (Ljung and Box: p = {:.2g}{})", r.whiteness, few)));
+                       known(" (Ljung and Box: p = {:.2g}{})", r.whiteness, few), intervals(r)));
   if (r.shares.size() > 1 && r.errors != Errors::none) tool.say(budget(r));
   if (!fit.laws) return;
   const std::vector<LawFit>& fits = fit.laws->fits;
