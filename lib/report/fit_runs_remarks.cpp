@@ -2,10 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "base/grid.h"
-#include "base/median.h"
 #include "report/fit_runs.h"
 #include "selection/readings.h"
 
@@ -280,32 +278,15 @@ class Remarks {
     std::string way_out = "look at the residuals, and see --report";
     if (fit_.route == Route::velocity)
       way_out = "fit the positions, if the file has them (--route position), or " + way_out;
-    if (const std::string cause = rounded_times(); !cause.empty()) way_out = cause;
+    for (const Run& run : fit_.runs)
+      if (const auto rounded = rounded_times(run.t); rounded && is_trajectory(fit_.route))
+        way_out = fmt::format(
+            "the times are rounded to {:.2g} s, where a row comes every {:.2g} s: give them with "
+            "more digits",
+            rounded->place, rounded->step);
     object(run_, fmt::format("the noise is correlated from row to row ({}), or the law is not the "
                              "right one: {}",
                              p_of(r_.whiteness), way_out));
-  }
-
-  /// Says that the times were rounded, if one step in five is longer or shorter than the usual one
-  /// by a digit that is more than a twentieth of it.
-  std::string rounded_times() const {
-    const std::vector<double>& t = fit_.runs.front().t;
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-    if (!is_trajectory(fit_.route) || steps.empty()) return {};
-    const double usual = median(steps);
-    const double digit = grid_of(t);
-    const auto is_off = [&](double step) {
-      return std::abs(std::abs(step - usual) / digit - 1) < 0.1;
-    };
-    if (digit < usual / 20 || 5 * std::ranges::count_if(steps, is_off) < std::ssize(steps))
-      return {};
-    std::erase_if(steps, [&](double step) { return step > 1.6 * usual; });  // over lost rows
-    const double all = std::accumulate(steps.begin(), steps.end(), 0.0);
-    return fmt::format(
-        "the times are rounded to {:.2g} s, where a row comes every {:.2g} s: give "
-        "them with more digits",
-        digit, all / static_cast<double>(steps.size()));
   }
 
   /// What a check alone looks at.

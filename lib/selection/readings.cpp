@@ -290,6 +290,22 @@ std::optional<double> way_between_pulses(std::span<const double> t, std::span<co
   return since ? since : way_by(t, v, 0);
 }
 
+std::optional<RoundedTimes> rounded_times(std::span<const double> t) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  if (steps.empty()) return {};
+  const double usual = median(steps);
+  const double place = grid_of(t);
+  if (place < usual / 20 || place > 0.6 * usual) return {};
+  const auto is_off = [&](double step) {
+    return std::abs(std::abs(step - usual) / place - 1) < 0.1;
+  };
+  if (10 * std::ranges::count_if(steps, is_off) < std::ssize(steps)) return {};
+  std::erase_if(steps, [&](double step) { return step > usual + 1.5 * place; });
+  const double all = std::accumulate(steps.begin(), steps.end(), 0.0);
+  return RoundedTimes{place, all / static_cast<double>(steps.size())};
+}
+
 double ways_ratio(std::span<const double> t, std::span<const double> x, std::span<const double> v) {
   std::vector<double> by_x{0};
   std::vector<double> by_v{0};

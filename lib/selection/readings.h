@@ -69,6 +69,16 @@ std::optional<std::size_t> start_over(std::span<const Sample> run);
 /// down, and not that of the row.
 std::optional<double> way_between_pulses(std::span<const double> t, std::span<const double> v);
 
+/// Times that were rounded to a place in which a step from row to row is no whole number: 30 rows a
+/// second to 0.01 s have steps of 0.03 and of 0.04 s. Nothing if fewer than one step in ten is
+/// longer or shorter than the usual one by that place; if it is less than a twentieth of the usual
+/// step, which hardly matters; or if it is almost that step, which lost rows look like.
+struct RoundedTimes {
+  double place = 0;  ///< [s]
+  double step = 0;   ///< the mean one, but for those over lost rows [s]
+};
+std::optional<RoundedTimes> rounded_times(std::span<const double> t);
+
 /// The way that the positions cover over that which the speeds of the same rows cover: 1 if both
 /// are of one body in one system of units. It is the median over stretches of half the rows, so
 /// that a few readings that are off do not count. Speeds are added up by trapezoids; an interval

@@ -365,3 +365,24 @@ TEST_CASE(
   CHECK(ways_ratio(t, x, v) == Approx(3.6).epsilon(0.1));
   CHECK(std::isfinite(ways_ratio(std::span(t).first(10), x, v)));
 }
+
+// Rounding matters from a twentieth of a step on, unless the steps are whole numbers of the place.
+TEST_CASE("readings: times are rounded where a step is no whole number of their place") {
+  for (const double rate : {10.0, 24.0, 25.0, 30.0, 50.0, 60.0, 120.0})
+    for (const double place : {0.02, 0.01, 0.001, 0.0001})
+      for (const int lost : {1000, 4}) {
+        std::vector<double> t;
+        for (int i = 0; i < 200; ++i)
+          if (i % lost != 1) t.push_back(place * std::round(i / rate / place));
+        const double steps = 1 / rate / place;  // in a step
+        const bool is_whole = std::abs(steps - std::round(steps)) < 0.1;
+        CAPTURE(rate, place, lost);
+        if (steps < 2) continue;  // a step of the place itself: lost rows look the same
+        const auto rounded = rounded_times(t);
+        CHECK(rounded.has_value() == (!is_whole && steps < 20));
+        if (!rounded) continue;
+        CHECK(rounded->place == Approx(place).epsilon(1e-6));
+        CHECK(rounded->step == Approx(1 / rate).epsilon(0.02));
+      }
+  CHECK_FALSE(rounded_times({}).has_value());
+}
