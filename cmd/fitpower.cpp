@@ -103,16 +103,18 @@ void refuse_slow(const std::vector<Run>& runs, const FitOptions& options) {
 }
 
 /// Fits all runs together, or with `each` every run by itself: if one cannot be fitted, a message
-/// names it and the others are fitted all the same.
+/// names it and the others are fitted all the same. With `compares` other laws are fitted too.
 std::vector<FitOfRuns> fit_all(Tool& tool, Route route, std::vector<Run> runs,
-                               const FitOptions& options, bool each) {
+                               const FitOptions& options, bool each, bool compares) {
   refuse_slow(runs, options);
   std::vector<FitOfRuns> fits;
   if (each)
     for (Run& run : runs) fits.push_back({route, {std::move(run)}});
   else fits.push_back({route, std::move(runs)});
   for (FitOfRuns& one : fits) try {
-      one.result = fit(route, one.runs, options);
+      FitResult result = fit(route, one.runs, options);
+      if (compares) one.laws = compare_laws(route, one.runs, options);
+      one.result = std::move(result);
     } catch (const Error& error) {
       if (!each) throw;
       tool.say(one.runs.front().name, tool.told(error));
@@ -219,9 +221,8 @@ struct Task {
 
 /// Prints the remarks on the fits, and their reports.
 void remark_on(Tool& tool, Route route, std::vector<FitOfRuns>& fits, const Task& task) {
-  const bool compares = task.with_report || tool.checks;
   if (task.options.fit_x0) say_begins(tool, fits);
-  if (task.options.robust && compares)
+  if (task.options.robust && (task.with_report || tool.checks))
     tool.warn(
         "neither other laws nor the beginning are looked at with --robust: this needs sums "
         "of squares");
@@ -229,7 +230,6 @@ void remark_on(Tool& tool, Route route, std::vector<FitOfRuns>& fits, const Task
   for (FitOfRuns& one : fits) {
     if (!one.result) continue;
     left_out += one.result->left_out;
-    if (compares && !task.options.robust) one.laws = compare_laws(route, one.runs, task.options);
     remark(tool, one, task.options, fits.size());
     doubt_speed(tool, one);
     if (!task.with_report) continue;
@@ -262,7 +262,8 @@ int fit_input(Tool& tool, Task& task) {
   if (!road && route == Route::velocity && take_pulses(tool, runs)) route = Route::position;
   task.bodies.give_to(runs);
   if (!trajectory && !options.fit_slope) warn_of_unused_body(tool, runs);
-  auto fits = fit_all(tool, route, std::move(runs), options, task.each);
+  const bool compares = (task.with_report || tool.checks) && !options.robust;
+  auto fits = fit_all(tool, route, std::move(runs), options, task.each, compares);
   const auto fitted = [](const FitOfRuns& one) { return one.result.has_value(); };
   const auto first = std::ranges::find_if(fits, fitted);
   if (first == fits.end()) return trouble;
