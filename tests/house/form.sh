@@ -73,17 +73,20 @@ for source in lib/*/*.cpp; do
   [ -e "${source%.cpp}.h" ] || [ -e "${source%_*}.h" ] || complain "$source has no header"
 done
 
-count=0
-while IFS= read -r file; do
-  count=$((count + 1))
-  case $file in *.cpp | *.h) mark=// ;; man/*) mark='.\"' ;; *) mark='#' ;; esac
-  head -n 2 "$file" | awk 'FNR == 1 && /^#!/ { next } { print; exit }' |
-    grep -qxF -e "$mark SPDX-License-Identifier: GPL-3.0-or-later" ||
-    complain "$file does not begin with its licence, or have it behind its #! line"
-done < <(find Makefile .ci/run tests/faults/tools cmd lib man tests samples -type f \( \
+mapfile -t files < <(find Makefile .ci/run tests/faults/tools cmd lib man tests samples -type f \( \
   -path 'man/*.[157]' -o -name '*.cpp' -o -name '*.h' -o -name '*.sh' -o -name '*.awk' \
   -o -name '*.gp' -o -name '*.py' -o -name '*.mk' -o -name Makefile -o -name run -o -name tools \) \
   ! -path '*/records/*' ! -path '*/results/*')
+while IFS= read -r file; do
+  complain "$file does not begin with its licence, or have it behind its #! line"
+done < <(awk '
+  FNR == 1 {
+    mark = FILENAME ~ /[.](cpp|h)$/ ? "//" : FILENAME ~ /^man\// ? ".\\\"" : "#"
+    if (/^#!/) next
+  }
+  $0 != mark " SPDX-License-Identifier: GPL-3.0-or-later" { print FILENAME }
+  { nextfile }' "${files[@]}")
+count=${#files[@]}
 [ "$count" -gt 400 ] || complain "only $count files were found"
 
 if command -v clang-format-14 >/dev/null; then
