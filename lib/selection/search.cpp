@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "selection/joints.h"
 #include "selection/pieces.h"
+#include "selection/slowing.h"
 
 namespace rolling {
 namespace {
@@ -87,10 +89,6 @@ class Search {
     pieces_.emplace_back(samples_, positions_, joint, end, noise_);
   }
 
-  /// A speed, and the deceleration at it.
-  struct Slowing {
-    double v, deceleration, error;
-  };
   /// What a roll shows of its law, ordered by the speeds.
   std::vector<Slowing> law_of(const Chain& c) const {
     std::vector<Slowing> law;
@@ -104,48 +102,49 @@ class Search {
     std::ranges::sort(law, {}, &Slowing::v);
     return law;
   }
-  /// The deceleration at a speed; beyond the speeds that were seen, that at the nearest.
-  static double at(const std::vector<Slowing>& law, double v) {
-    const auto above = std::ranges::lower_bound(law, v, {}, &Slowing::v);
-    if (above == law.begin()) return above->deceleration;
-    const Slowing& below = *(above - 1);
-    if (above == law.end()) return below.deceleration;
-    const double part = (v - below.v) / (above->v - below.v);
-    return std::lerp(below.deceleration, above->deceleration, part);
-  }
-  /// Whether a body that rolls under `law` slows down like `other`, within a factor of 1.5.
-  static bool are_alike(const std::vector<Slowing>& law, const std::vector<Slowing>& other) {
-    double found = 0;
-    double expected = 0;
-    for (const Slowing& s : other) {
-      const double alike = at(law, s.v);
-      if (std::abs(s.deceleration - alike) > 4 * s.error + 2 * alike) return false;
-      found += s.deceleration;
-      expected += alike;
-    }
-    return found > expected / 1.5 && found < 1.5 * expected;
-  }
-  /// The chains that slow down alike at the same speed. A body has one law; a hand, a brake or a
-  /// body that is carried back follows another. The law is that under which the body rolled for the
-  /// longest time in all.
-  std::vector<Chain> of_one_law(const std::vector<Chain>& all) const {
+  /// The chains that slow down like one of them, within a factor of 1.5, for the longest time in
+  /// all.
+  std::vector<Chain> alike(const std::vector<Chain>& all) const {
     std::vector<std::vector<Slowing>> laws;
     for (const Chain& c : all) laws.push_back(law_of(c));
     std::vector<Chain> best;
     std::pair<bool, double> most{false, -1};
     for (std::size_t i = 0; i < all.size(); ++i) {
-      std::vector<Chain> alike;
+      std::vector<Chain> found;
       double duration = 0;
       for (std::size_t k = 0; k < all.size(); ++k)
-        if (k == i || are_alike(laws[i], laws[k])) {
-          alike.push_back(all[k]);
+        if (k == i || are_alike(laws[i], laws[k], 1.5)) {
+          found.push_back(all[k]);
           duration += all[k].duration;
         }
       const std::pair worth(all[i].lost > 0.1, duration);
       if (worth <= most) continue;
       most = worth;
-      best = alike;
+      best = found;
     }
+    return best;
+  }
+  bool goes_up(const Chain& c) const { return pieces_[c.first].v(pieces_[c.first].from).value > 0; }
+  /// The chains of one law. A body has one law; a hand, a brake or a body that is carried back
+  /// follows another. On a mat that is not level the body slows down more on its way up than down:
+  /// if all these chains go one way, those of the other way that are alike are of the body too, if
+  /// they are two or more, take half as long in all, and slow down as much within a factor of 2.5.
+  std::vector<Chain> of_one_law(const std::vector<Chain>& all) const {
+    std::vector<Chain> best = alike(all);
+    if (best.empty()) return best;
+    const auto goes_back = [&](auto& c) { return goes_up(c) != goes_up(best.front()); };
+    std::vector<Chain> back;
+    std::ranges::copy_if(all, std::back_inserter(back), goes_back);
+    back = alike(back);
+    const auto in_all = [](const auto& chains) {
+      double duration = 0;
+      for (const Chain& c : chains) duration += c.duration;
+      return duration;
+    };
+    if (std::ranges::none_of(best, goes_back) && back.size() > 1 &&
+        in_all(back) > in_all(best) / 2 &&
+        are_alike(law_of(best.front()), law_of(back.front()), 2.5))
+      best.insert(best.end(), back.begin(), back.end());
     double fastest = 0;
     for (const Chain& c : best) fastest = std::max(fastest, c.fastest);
     std::erase_if(best, [&](const Chain& c) { return c.fastest < 0.2 * fastest; });
