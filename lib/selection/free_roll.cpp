@@ -121,6 +121,11 @@ std::ptrdiff_t shared(const Stretch& a, const Stretch& b) {
          static_cast<std::ptrdiff_t>(std::max(a.begin, b.begin));
 }
 
+void shift(Stretch& s, std::size_t begin) {
+  s.begin += begin;
+  s.end += begin;
+}
+
 /// The same roll, sought again in the samples around it, whose means are finer.
 void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
   std::size_t n = run.size();
@@ -134,10 +139,7 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
     n = to - from;
     std::vector<FreeRoll> found = rolls_in_means(run.subspan(from, n), positions).first;
     if (found.empty()) return;  // finer means are noisier
-    for (FreeRoll& of : found) {
-      of.kept.begin += from;
-      of.kept.end += from;
-    }
+    for (FreeRoll& of : found) shift(of.kept, from);
     const auto in_common = [&](const FreeRoll& of) { return shared(of.kept, roll.kept); };
     const FreeRoll& same = *std::ranges::max_element(found, {}, in_common);
     if (in_common(same) <= 0) return;
@@ -149,13 +151,46 @@ void refine(std::span<const Sample> run, bool positions, FreeRoll& roll) {
   }
 }
 
+/// The rolls in parts of a run, each of which overlaps the next by a half, the longest first: those
+/// that are too short for the means of the whole run. The search takes parts of half the size until
+/// they show rolls and no new ones, or the samples themselves are searched, or there are 32.
+std::vector<FreeRoll> rolls_in_parts(std::span<const Sample> run, bool positions) {
+  std::vector<FreeRoll> rolls;
+  const auto longer = [](const FreeRoll& a, const FreeRoll& b) {
+    return a.kept.to - a.kept.from > b.kept.to - b.kept.from;
+  };
+  std::size_t size = run.size();
+  bool done = false;
+  for (std::size_t parts = 2; !done && size_of_means(size) > 1 && parts <= 32; parts *= 2) {
+    const std::size_t before = rolls.size();
+    size = 2 * run.size() / (parts + 1);
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t begin = part * (run.size() - size) / (parts - 1);
+      for (FreeRoll& roll : rolls_in_means(run.subspan(begin, size), positions).first) {
+        shift(roll.kept, begin);
+        if (roll.other) shift(*roll.other, begin);
+        if (roll.kept.end < run.size() && roll.how == FreeRoll::End::goes_on)
+          roll.how = FreeRoll::End::is_ended;
+        const auto same = [&](const FreeRoll& of) { return shared(of.kept, roll.kept) > 0; };
+        const auto known = std::ranges::find_if(rolls, same);
+        if (known == rolls.end()) rolls.push_back(roll);
+        else if (longer(roll, *known)) *known = roll;
+      }
+    }
+    done = before > 0 && rolls.size() == before;
+  }
+  std::ranges::sort(rolls, longer);
+  return rolls;
+}
+
 /// The rolls in a run. Throws Error if there is none.
 std::vector<FreeRoll> rolls_of(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
   refuse_spikes(run, 0.12);
   if (positions) refuse_start_over(run);
-  const auto [rolls, noise] = rolls_in_means(run, positions);
-  if (!rolls.empty()) return rolls;
+  auto [rolls, noise] = rolls_in_means(run, positions);
+  if (rolls.empty()) rolls = rolls_in_parts(run, positions);
+  if (!rolls.empty()) return std::move(rolls);
   refuse_spikes(run, 0.02);
   const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
   fail<NoFreeRoll>(

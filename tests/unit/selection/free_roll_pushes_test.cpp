@@ -261,3 +261,53 @@ TEST_CASE("free_rolls: every roll of a record is found, and no hand", "[signal]"
   CHECK(100 * found >= 95 * times * 20);
   CHECK(100 * wrong <= times * 20);
 }
+
+namespace {
+
+/// Positions at 25 Hz to a millimetre: rest, and rolls that slow down by these, with rests between.
+std::vector<Sample> rolls_of(std::span<const double> decelerations, std::size_t rest,
+                             unsigned seed) {
+  std::vector<double> x(50, 0.5);
+  constexpr double dt = 0.04;
+  double way = 1;
+  for (const double of_roll : decelerations) {
+    for (int i = 1; i <= 10; ++i) x.push_back(x.back() + way * 0.45 * i / 10 * dt);
+    for (double v = 0.45; v > 0; v -= of_roll * dt) x.push_back(x.back() + way * v * dt);
+    x.insert(x.end(), rest, x.back());
+    way = -way;
+  }
+  const Series e = noise(x.size(), seed);
+  std::vector<Sample> run;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    run.push_back({dt * static_cast<double>(i), 1e-3 * std::round(1e3 * x[i] + 0.3 * e[i])});
+  return run;
+}
+
+}  // namespace
+
+// A cylinder on felt, to and fro on a mat that is not level: the slope is a third of D/R at most.
+TEST_CASE("free_rolls: up and down a slope are rolls of one body", "[signal]") {
+  for (const double share : {0.0, 0.1, 0.2, 0.3})
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      const double up = 0.094 * (1 + share);
+      const double down = 0.094 * (1 - share);
+      CAPTURE(share, seed);
+      CHECK(free_rolls(rolls_of(std::vector{up, down, up, down}, 40, seed), true).size() == 4);
+    }
+}
+
+// A mean over as many rows as the search of a long record takes would be half a second.
+TEST_CASE("free_rolls: two rolls are found in ten minutes of rest", "[signal]") {
+  for (const std::size_t rest : {500U, 3000U, 7000U})
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      CAPTURE(rest, seed);
+      const auto run = rolls_of(std::vector{0.25, 0.25}, rest, seed);
+      const auto rolls = free_rolls(run, true);
+      REQUIRE(rolls.size() == 2);
+      for (const FreeRoll& roll : rolls) CHECK(roll.how == FreeRoll::End::by_itself);
+      CHECK(rolls[0].kept.from > 2.35);
+      CHECK(rolls[0].kept.from < 2.6);
+      CHECK(rolls[0].kept.to == Approx(4.2).margin(0.2));
+      CHECK(free_roll(run, true).how == FreeRoll::End::by_itself);
+    }
+}
