@@ -87,12 +87,13 @@ columns() {
     NF { for (j = 1; j <= n; j++) printf "%s%s", $at[j], (j < n ? "\t" : "\n") }' "$file"
 }
 # window SECONDS FILE LEAST: the odd number of rows that last SECONDS, at least LEAST, at most all rows.
+# The times of each run in the file begin anew.
 window() {
   columns "$2" t | awk -v width="$1" -v least="$3" '
-    NR == 1 { first = $1 }
+    NR > 1 && $1 > last { time += $1 - last; steps++ }
     { last = $1 }
     END {
-      rows = 2 * int(width * (NR - 1) / (last - first) / 2) + 1
+      rows = 2 * int(width * steps / time / 2) + 1
       if (rows < least) rows = least
       if (rows > NR) rows = NR - (NR + 1) % 2
       print rows

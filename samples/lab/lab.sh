@@ -106,7 +106,7 @@ if command -v gnuplot >/dev/null; then
     >"$new/fig4.svg" 2>"$scratch/said" || { rm "$new/fig4.svg" && say "no figure: $(tail -n 1 "$scratch/said")"; }
 fi
 if [ "$check" ] && [ "$m" ]; then
-  $speeds -q -c "$c" -M savgol -w 21 "$new/rolls" |
+  $speeds -q -c "$c" -M savgol -w "$(window 0.84 "$new/rolls" 5)" "$new/rolls" |
     energy-ledger -m "$m" --law "$table" --summary --digits 6 --check 0.05 ${accepted[@]+"${accepted[@]}"} \
       >"$new/energy.txt" || { [ $? = 1 ] || rm "$new/energy.txt"; failed=1; }
 fi
