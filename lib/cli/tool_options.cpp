@@ -108,11 +108,13 @@ std::string wrapped(std::string words) {
   return words;
 }
 
-/// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83
+/// Numbers with commas between them; each may have an uncertainty: 0.5+-0.005,0.83. Beside a
+/// decimal point no comma is a decimal one.
 std::vector<Estimate> to_numbers(const std::string& text, const Domain& domain) {
   const auto parts = split_names(text, ',');
   const auto both_whole = [](const auto& a, const auto& b) { return is_whole(a) && is_whole(b); };
-  if (std::ranges::adjacent_find(parts, both_whole) != parts.end())
+  const bool has_point = text.find('.') < text.size();
+  if (!has_point && std::ranges::adjacent_find(parts, both_whole) != parts.end())
     fail(
         "'{}' can be read in two ways: if its comma is a decimal one, make it a point; else "
         "write whole numbers with one, as 1.0,2.0",
