@@ -67,7 +67,8 @@ std::string end_of(const FreeRoll& roll) {
         "the speed stays at {:.3g} m/s from {:.12g} s on, and not at 0: if the body rests there, "
         "subtract that from all speeds",
         roll.speed, roll.after);
-  return fmt::format("something stopped the body at {:.12g} s", roll.after);
+  return fmt::format(
+      "something stopped the body at {:.12g} s, or b of its law is near 1 or below 0", roll.after);
 }
 
 /// Tells which rolls are kept: one roll in a line, more of them in a line for all.
