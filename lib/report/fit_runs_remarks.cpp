@@ -161,7 +161,8 @@ class Remarks {
     if (const auto& jump = r_.clock_jump)
       object(run_, fmt::format(
                        "from t = {:.12g} s on the times are {:.2g} s too {} ({}), as if frames or "
-                       "readings were {}: fit the rows before or after that",
+                       "readings were {}, or the law is not the right one: fit the rows before or "
+                       "after that",
                        jump->time, std::abs(jump->by), jump->by > 0 ? "small" : "large",
                        p_of(jump->p), jump->by > 0 ? "lost" : "there twice"));
     spoilt_ |= std::ranges::any_of(fit_.runs, [&](const Run& run) { return rounding(run); });
