@@ -134,7 +134,7 @@ class Search {
     if (best.empty()) return best;
     const auto goes_back = [&](auto& c) { return goes_up(c) != goes_up(best.front()); };
     std::vector<Chain> back;
-    std::ranges::copy_if(all, std::back_inserter(back), goes_back);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(back), goes_back);
     back = alike(back);
     const auto in_all = [](const auto& chains) {
       double duration = 0;
