@@ -121,6 +121,7 @@ std::ptrdiff_t shared(const Stretch& a, const Stretch& b) {
          static_cast<std::ptrdiff_t>(std::max(a.begin, b.begin));
 }
 
+/// Makes the indices of a stretch in a part of a run, which begins here, those in the whole run.
 void shift(Stretch& s, std::size_t begin) {
   s.begin += begin;
   s.end += begin;
