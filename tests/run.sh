@@ -183,27 +183,22 @@ if ! $more; then
 fi
 
 total_passed=0 total_failed=0 total_skipped=0
-open=()  # the groups that have not been told
-for group in "${groups[@]}"; do
-  [[ " ${open[*]-} " == *" $group "* ]] || open+=("$group")
+begins=()  # the first test of each group that has not been told
+for i in "${!paths[@]}"; do
+  [ "$i" -gt 0 ] && [ "${groups[i]}" = "${groups[i - 1]}" ] || begins+=("$i")
 done
 
-# Tells of each group whose tests have all ended; with `all`, of every group.
+# Tells of each group whose tests have all ended, of the tests before $1; with `all`, of every group.
 tell() {
-  local group i passed failed skipped ended=() still=() sum bad
-  for group in "${open[@]}"; do
-    ended=()
-    for i in "${!paths[@]}"; do
-      [ "${groups[i]}" = "$group" ] || continue
-      if [ -s "$scratch/$i/counts" ] || [ "${1-}" = all ]; then
-        ended+=("$i")
-      else
-        still+=("$group")
-        continue 2
-      fi
+  local first i passed failed skipped still=() sum bad
+  for first in "${begins[@]}"; do
+    for ((i = first; i < ${#paths[@]}; ++i)); do
+      [ "${groups[i]}" = "${groups[first]}" ] || break
+      [ "$1" = all ] || { [ "$i" -lt "$1" ] && [ -s "$scratch/$i/counts" ]; } || { still+=("$first") && continue 2; }
     done
     sum=0 bad=0
-    for i in "${ended[@]}"; do
+    for ((i = first; i < ${#paths[@]}; ++i)); do
+      [ "${groups[i]}" = "${groups[first]}" ] || break
       grep -v '^SKIP ' "$scratch/$i/says"
       grep '^SKIP ' "$scratch/$i/says" >>"$scratch/skips"
       passed=0 failed=1 skipped=0
@@ -217,9 +212,9 @@ tell() {
       sum=$((sum + passed + failed)) bad=$((bad + failed))
     done
     [ $bad = 0 ] && bad='' || bad=", $bad of them failed"
-    echo "$group: $sum tests$bad, after $SECONDS s"
+    echo "${groups[first]}: $sum tests$bad, after $SECONDS s"
   done
-  open=("${still[@]}")
+  begins=("${still[@]}")
 }
 
 # As many at a time as there are processors.
@@ -231,7 +226,7 @@ for i in "${!paths[@]}"; do
   if [ "$running" -ge "$slots" ]; then
     wait -n
     running=$((running - 1))
-    tell
+    tell "$i"
   fi
   "run_${kinds[i]}" "${paths[i]}" "$scratch/$i" >"$scratch/$i/says" 2>&1 &
   running=$((running + 1))
@@ -239,7 +234,7 @@ done
 while [ "$running" -gt 0 ]; do
   wait -n
   running=$((running - 1))
-  tell
+  tell ${#paths[@]}
 done
 tell all
 cat "$scratch/skips"

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What only those need who develop: the tests and how they are built, other compilers and machines,
 # analysis, measurements. The Makefile includes it.
-test   := $(wildcard tests/unit/*/*.cpp tests/pipeline/*.cpp)
 # A sanitizer does not link statically.
 static_libc := $(if $(findstring -fsanitize,$(CXXFLAGS)),,$(wildcard /usr/lib/*/libgsl.a))
 target := number reader scene $(tool)
@@ -10,46 +9,48 @@ target := number reader scene $(tool)
         mutate coverage bad-runs lab-rates extremes peers results work-precision work-precision-signal bench \
         lint
 
--include $(patsubst %.o,%.d,$(call object,$(test) \
-           $(wildcard tests/bench/*.cpp tests/fuzz/*.cpp tests/fused/*.cpp)))
-
-# The unit tests are compiled with -Og and parse Catch2 once, which takes 0.4 of the time.
-of_test  := $(call object,$(test))
+# The unit tests of a module are one source, which parses headers and Catch2 once (a third of the time):
+# the headers of its files, then each file in a namespace of its own. They are compiled with -Og.
+module   := $(notdir $(patsubst %/,%,$(wildcard tests/unit/*/))) pipeline
+of_test  := $(module:%=build/tests/%_tests.o)
 of_bench := $(call object,$(wildcard tests/bench/*.cpp tests/fuzz/*.cpp))
+-include $(patsubst %.o,%.d,$(of_test) $(of_bench) build/tests/fused/fused.o)
 $(of_test) build/catch.h.gch build/catch_main.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+$(of_test) build/catch.h.gch: override CPPFLAGS += -Itests
 ifneq ($(common),)
 $(of_test): parsed := -include build/catch.h
 $(of_test): | build/catch.h.gch
 $(of_bench): parsed := -include build/common.h
 $(of_bench): | build/common.h.gch
-build/catch.h.gch: override CPPFLAGS += -Itests
 build/catch.h.gch: tests/unit/catch.h build/flags
 	@mkdir -p $(@D)
 	printf '#include %s\n' $(common:%='%') '<random>' '"unit/catch.h"' >build/catch.h
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/catch.h
 endif
+.SECONDEXPANSION:
+build/tests/%_tests.cpp: $$(wildcard $$(addsuffix $$*,tests/unit/ tests/) tests/unit/$$*/*.cpp tests/$$*/*.cpp)
+	@mkdir -p $(@D)
+	@{ cat $(filter %.cpp,$^) | grep '^#include' | grep -v '[.]inc"' | sort -u; \
+	  for file in $(filter %.cpp,$(^:tests/%=%)); do \
+	    printf 'namespace %s {\n#include "%s"\n}\n' "$$(basename $$file .cpp)" $$file; done; } >$@
+build/tests/%_tests.o: build/tests/%_tests.cpp build/flags
+	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-# Catch2 brings its own main: version 3 as a library, version 2 as a header.
-build/unit: CPPFLAGS += -Itests
-build/unit: $(call object,$(test)) build/catch_main.o build/lib.a
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
-	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+# Catch2 brings its own main: a library, or version 2 without one a header, which is compiled.
+catch_library := $(if $(wildcard /usr/include/catch2/catch.hpp),\
+                   $(if $(wildcard /usr/lib/libCatch2WithMain.a),-lCatch2WithMain),-lCatch2Main -lCatch2)
+catch_main := $(if $(catch_library),,build/catch_main.o)
+build/unit: $(of_test) $(catch_main) build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(catch_library)
 
 build/catch_main.o:
 	@mkdir -p $(@D)
-	if test -e /usr/include/catch2/catch.hpp; then \
-	  echo '#define CATCH_CONFIG_MAIN'; echo '#include <catch2/catch.hpp>'; \
-	else \
-	  echo '#include <catch2/catch_session.hpp>'; \
-	  echo 'int main(int argc, char** argv) { return Catch::Session().run(argc, argv); }'; \
-	fi | $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
+	printf '#define CATCH_CONFIG_MAIN\n#include <catch2/catch.hpp>\n' | \
+	  $(CXX) $(CXXFLAGS) -x c++ -c -o $@ -
 
 # The unit tests of one module of lib/, by themselves: build/unit-fit.
-.SECONDEXPANSION:
-build/unit-%: CPPFLAGS += -Itests
-build/unit-%: $$(call object,$$(wildcard tests/unit/$$*/*.cpp)) build/catch_main.o build/lib.a
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) \
-	  $$(test -e /usr/include/catch2/catch.hpp || echo -lCatch2)
+build/unit-%: build/tests/%_tests.o $(catch_main) build/lib.a
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(catch_library)
 
 # The exact arithmetic built as it is, and with flags in front of the project's that would fuse
 # multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
@@ -196,7 +197,7 @@ results:
 
 # What `fitpower --check` says of runs with one thing wrong: two minutes.
 bad-runs: all
-	@PATH="$$PWD/bin:$$PATH" tests/bench/bad-runs.sh $(call short,2) | \
+	@PATH="$$PWD/bin:$$PATH" tests/bench/bad-runs.sh $(call short,1) | \
 	  tee $(call short,build,samples)/bad-runs.txt
 
 # How many good folders `samples/lab/lab.sh --check` takes for bad ones, and how many bad ones it finds:

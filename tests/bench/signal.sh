@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # tests/bench/signal.sh FOLDER [SEEDS]: the errors of smooth and differentiate on noisy runs, as
 # FOLDER/signal.tsv, with SciPy's beside them where it is installed; against the window as
-# FOLDER/signal.{svg,png} and against the run time as FOLDER/filters.svg, if gnuplot is. Prints the
-# best and the usual for each scene.
+# FOLDER/signal.svg and against the run time as FOLDER/filters.svg, if gnuplot is. Prints the best and
+# the usual for each scene.
 set -euo pipefail
 export LC_ALL=C
 unset CDPATH
@@ -32,42 +32,28 @@ awk -F'\t' -v OFS='\t' '
     }
   }' "$table"
 if command -v gnuplot >/dev/null; then
-  for terminal in svg pngcairo; do
-    # The name of the table reaches gnuplot's script through the environment: it is not code.
-    TABLE=$table PICTURE=$folder TERMINAL=$terminal gnuplot <<'END'
-suffix = system("echo $TERMINAL") eq "svg" ? ".svg" : ".png"
-picture = system('printf %s "$PICTURE"')
-if (suffix eq ".svg") { set terminal svg size 1200,750 font "sans,11" background "white" }
-else { set terminal pngcairo size 1200,750 font "sans,11" background "white" }
-set datafile separator "\t"
-set logscale y
-set yrange [0.008:5]
-set ylabel "relative error of D"
-rows(scene, method) = sprintf("awk -F'\\t' '$1 == \"%s\" && $2 == \"%s\"' \"$TABLE\"", \
-                              scene, method)
-pick(scene, method) = "< " . rows(scene, method)
-level(scene, method) = real(system(rows(scene, method) . " | cut -f 9"))
-
-set output picture . "/signal" . suffix
+  (cd "$folder" && LC_ALL=C.UTF-8 gnuplot "$style" /dev/stdin) <<'END'
+set terminal svg size 1200,750 font 'sans,11' background 'white'
+set output 'signal.svg'
+set logscale y; set xrange [0:63]; set yrange [0.008:5]
+set xlabel 'width [rows]'; set ylabel 'relative error of D'
+set key outside right
+methods = 'mean+central median+central savgol+central savgol1 savgol2 spline'
+array names[6] = ['mean, central', 'median, central', 'savgol 2, central', 'savgol 1', 'savgol 2', 'spline']
+array hue[6] = [1, 4, 2, 7, 2, 3]
+is(scene, name) = strcol(1) eq scene && strcol(2) eq name
 set multiplot layout 2,2 title "Error of D against the window, 25 Hz sonar \
 (thick: v' of the same fit; dashed: smoothed, then central)"
-set xrange [0:63]
-set xlabel "width [rows]"
-set key outside right
-do for [scene in "CF CR SF SR"] {
+do for [scene in 'CF CR SF SR'] {
   set title scene
-  plot pick(scene, "mean+central") using 3:9 with linespoints dt 2 lc 1 title "mean, central", \
-       pick(scene, "median+central") using 3:9 with linespoints dt 2 lc 4 \
-         title "median, central", \
-       pick(scene, "savgol+central") using 3:9 with linespoints dt 2 lc 2 \
-         title "savgol 2, central", \
-       pick(scene, "savgol1") using 3:9 with linespoints lw 2 lc 7 title "savgol 1", \
-       pick(scene, "savgol2") using 3:9 with linespoints lw 2 lc 2 title "savgol 2", \
-       level(scene, "spline") lc 3 title "spline"
+  plot for [m = 1:3] 'signal.tsv' using (is(scene, word(methods, m)) ? $3 : NaN):9 \
+         with linespoints lt hue[m] dt 2 title names[m], \
+       for [m = 4:5] 'signal.tsv' using (is(scene, word(methods, m)) ? $3 : NaN):9 \
+         with linespoints lt hue[m] lw 2 title names[m], \
+       'signal.tsv' using (is(scene, 'spline') ? 0 : NaN):9:(63):(0) with vectors nohead lt hue[6] title names[6]
 }
 unset multiplot
 END
-  done
   # Error against run time, on rubber and on felt: the kept figure samples/filters.svg.
   (cd "$folder" && LC_ALL=C.UTF-8 gnuplot "$style" /dev/stdin) <<'END'
 set terminal svg size 960,420 font 'sans-serif,12' background 'white'

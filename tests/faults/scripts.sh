@@ -30,7 +30,7 @@ mkdir "$scratch/tools" && for tool in bin/*; do cp "$(type -P true)" "$scratch/t
 for stand_in in dpkg-query apt-get; do printf '#!/bin/sh\nexit 1\n' >"$scratch/path/$stand_in"; done
 chmod +x "$scratch/path/"*
 awk 'BEGIN { print "t[s],v[km/h]"; for (t = 0; t <= 60; t += 0.5) print t "," 100 - t }' >"$tree/runs/car"
-export TMPDIR="$scratch/tmp" SOURCE_DATE_EPOCH=1600000000 XZ_OPT=-0 \
+export TMPDIR="$scratch/tmp" SOURCE_DATE_EPOCH=1600000000 XZ_OPT=-0 DPKG_DEB_COMPRESSOR_LEVEL=0 \
   bindir=/b mandir=/m datadir=/d docdir=/o TOOLS="$scratch/tools"
 cp -R "$tree" "$tree.before"
 

@@ -38,8 +38,8 @@ all_scripts() {
     for name in ${LONG:+fig1 fig2 fig3 fig5 energy} fig1-stop fig4 turn; do
       "$samples/figures/$name.sh" >"$out/$name.svg"
     done
-    "$samples/paper.sh" >"$out/paper"  # draws the others
     if [ -n "${LONG:-}" ]; then
+      "$samples/paper.sh" >"$out/paper"
       "$samples/report.sh" "$out" >"$out/report.html"
       sed -i '/<h2>How exact/,$d' "$out/report.html"  # it ends with a table of run times
     fi
@@ -65,8 +65,8 @@ table=$scratch/plain/results/table.txt
   complain "a name makes a column"
 [ ! -e hit ] && [ -z "$(find "$scratch" -name hit)" ] || complain "a name was run as code"
 
-# The pages and the README, pasted into a terminal of that locale.
-for examples in tests/pages/man-examples.sh tests/pages/readme.sh; do
+# The README, and with LONG=1 the pages, pasted into a terminal of that locale.
+for examples in ${LONG:+tests/pages/man-examples.sh} tests/pages/readme.sh; do
   EXAMPLES_LOCALE=de_DE.UTF-8 LOCPATH=$scratch $examples >"$scratch/said" 2>&1 || [ $? = 77 ] ||
     { complain "$examples in de_DE.UTF-8:" && tail -n 60 "$scratch/said"; }
 done

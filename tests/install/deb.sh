@@ -12,6 +12,7 @@ command -v dpkg-shlibdeps >/dev/null ||
 scratch=$(mktemp -d) || exit 2
 trap 'rm -rf "$scratch"' EXIT
 unset MAKEFLAGS MAKELEVEL DESTDIR PREFIX PROGRAM_PREFIX
+[ -n "${LONG-}" ] || export DPKG_DEB_COMPRESSOR_LEVEL=0  # quick
 wrong=0
 complain() { echo "$*" && wrong=1; }
 
@@ -20,7 +21,7 @@ pack=cmd/install/deb.sh
 # As outside of git: PATH has a git that refuses, as git does in a folder of another user.
 mkdir "$scratch/path" && printf '#!/bin/sh\nexit 128\n' >"$scratch/path/git" && chmod +x "$scratch/path/git"
 PATH="$scratch/path:$PATH" TOOLS=bin $pack >"$scratch/made" 2>&1 || { cat "$scratch/made" && exit 1; }
-[ -z "$(git log -1 --format=%an 2>/dev/null)" ] || TOOLS=bin $pack >"$scratch/made" 2>&1 ||
+[ -z "${LONG-}" ] || [ -z "$(git log -1 --format=%an 2>/dev/null)" ] || TOOLS=bin $pack >"$scratch/made" 2>&1 ||
   { cat "$scratch/made" && exit 1; }
 version=$(bin/smooth --version | cut -d ' ' -f 3)
 package=build/rolling_${version}_$(dpkg --print-architecture).deb

@@ -12,7 +12,7 @@ trap 'rm -rf "$scratch"' EXIT
 wrong=0
 complain() { echo "$*" && wrong=1; }
 unset DESTDIR PREFIX PROGRAM_PREFIX SOURCE_DATE_EPOCH
-export XZ_OPT=-0 CCACHE_DISABLE=1 DEBFULLNAME=A DEBEMAIL=a@b.de
+export XZ_OPT=-0 DPKG_DEB_COMPRESSOR_LEVEL=0 CCACHE_DISABLE=1 DEBFULLNAME=A DEBEMAIL=a@b.de
 export GIT_DIR=/dev/null  # dated by the newest file
 
 build() {  # FOLDER
@@ -24,9 +24,9 @@ build() {  # FOLDER
   else
     # lib.a stays as it is: what is compiled here is compared by itself.
     g=${CXX:-g++}
-    make build/cmd/energy-ledger.o build/lib/contact/contact.o CXX="$g" &&
-      make -o build/lib.a bin/energy-ledger CXX="$g" && mv bin/energy-ledger build &&
-      cp "$top/bin/energy-ledger" bin && TOOLS=bin cmd/install/static.sh any &&
+    make build/cmd/differentiate.o build/lib/contact/contact.o CXX="$g" &&
+      make -o build/lib.a bin/differentiate CXX="$g" && mv bin/differentiate build &&
+      cp "$top/bin/differentiate" bin && TOOLS=bin cmd/install/static.sh any &&
       if command -v dpkg-shlibdeps; then TOOLS=bin cmd/install/deb.sh; fi
   fi
 }
@@ -35,7 +35,7 @@ top=$PWD
 (umask 077 && TZ=Asia/Tokyo && export TZ && build "$scratch/the second one's") >"$scratch/said" 2>&1 ||
   complain "$(tail -n 20 "$scratch/said")"
 cd "$scratch/one" || exit 2
-compared=$(find . -name '*.o' -o -name 'rolling-*.tar.xz' -o -name '*.deb' -o -path './build/energy-ledger' \
+compared=$(find . -name '*.o' -o -name 'rolling-*.tar.xz' -o -name '*.deb' -o -path './build/differentiate' \
   -o -path './build/static/bin/*' -o -path './build/debian/bin/*')
 [ "$(wc -l <<<"$compared")" -gt 3 ] || complain "only these were built: $compared"
 for file in $compared; do cmp "$file" "$scratch/the second one's/$file" || complain "two builds differ"; done

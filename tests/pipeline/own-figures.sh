@@ -14,7 +14,7 @@ wrong=0
 complain() { echo "$*"; wrong=1; }
 turn=0
 in_turn() { turn=$((turn + 1)); [ $((turn % $1)) = 0 ] || [ -n "${LONG:-}" ]; }  # one of so many
-for figure in fig1 fig1-stop fig2 fig3 fig4 fig5 energy turn residuals; do
+for figure in ${LONG:+fig1 fig2 fig4 fig5} fig1-stop fig3 energy turn residuals; do
   samples/figures/$figure.sh >"$scratch/$figure.svg" || complain "$figure: $?"
 done
 part() { awk -v n="$2" '/id="gnuplot_plot_/ { on = index($0, "\"gnuplot_plot_" n "\"") } on' "$scratch/$1.svg"; }
@@ -223,7 +223,7 @@ for i in {1..17}; do
   names+=("$scratch/a solid cylinder on the second rubber mat, try no. $((i + 10)).csv")
   cp "$scratch/CR.csv" "${names[-1]}"
 done
-for n in ${LONG:+4 9 16} 1 5 17; do
+for n in ${LONG:+4 5 9 16} 1 17; do
   samples/figures/fig4.sh -K 0.5 -R 0.04 "${names[@]:0:n}" >"$scratch/names.svg" || complain "fig4 of $n runs"
   [ "$(grep -oE '<title>(a[^<]*…|…[12][0-9](:|<))' "$scratch/names.svg" | sort -u | grep -c .)" = $((n > 16 ? 16 : n)) ] ||
     complain "fig4 of $n runs: $(grep -o '<title>.*' "$scratch/names.svg")"

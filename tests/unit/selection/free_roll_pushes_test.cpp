@@ -299,7 +299,7 @@ TEST_CASE("free_rolls: up and down a slope are rolls of one body", "[signal]") {
 // A mean over as many rows as the search of a long record takes would be half a second.
 TEST_CASE("free_rolls: two rolls are found in ten minutes of rest", "[signal]") {
   for (const std::size_t rest : {500U, 3000U, 7000U})
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (unsigned seed = 1; seed <= of_many(5); ++seed) {
       CAPTURE(rest, seed);
       const auto run = rolls_of(std::vector{0.25, 0.25}, rest, seed);
       const auto rolls = free_rolls(run, true);
