@@ -4,6 +4,7 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -49,21 +50,29 @@ std::vector<double> response(const ObservedRun& run, const Path& path, double r)
   return columns;
 }
 
+/// The columns Q that the fit follows, and behind them those of the response as the residuals see
+/// it.
+std::vector<double> columns_beside(std::span<const std::span<const double>> Q, const Fitted& fit,
+                                   std::size_t run, std::vector<double> by_e) {
+  const ObservedRun& of = fit.model.runs()[run];
+  if (of.H) by_e = of.H->times(by_e);
+  if (fit.noise().known()) fit.noise().whitener(run).apply(by_e);
+  std::vector<double> columns;
+  columns.reserve(Q.size() * of.t.size() + by_e.size());
+  for (const auto column : Q) columns.insert(columns.end(), column.begin(), column.end());
+  columns.insert(columns.end(), by_e.begin(), by_e.end());
+  return columns;
+}
+
 /// The amplitude of the response to a period of 2 pi r in the residuals f of a run, of so many
-/// degrees of freedom, and its p. Q: the columns that the fit follows.
+/// degrees of freedom, and its p.
 Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, double r,
                        double freedom, std::vector<double> f,
                        std::span<const std::span<const double>> Q) {
-  const ObservedRun& of = fit.model.runs()[run];
-  std::vector<double> by_e = response(of, path, r);
-  if (of.H) by_e = of.H->times(by_e);
-  if (fit.noise().known()) fit.noise().whitener(run).apply(by_e);
   const std::size_t own = Q.size();
   const std::size_t q = own + 2;
-  std::vector<double> columns;
-  columns.reserve(q * f.size());
-  for (const auto column : Q) columns.insert(columns.end(), column.begin(), column.end());
-  columns.insert(columns.end(), by_e.begin(), by_e.end());
+  std::vector<double> columns =
+      columns_beside(Q, fit, run, response(fit.model.runs()[run], path, r));
   const double squares = dot(f, f);
   const double left = freedom - 2;
   Triangles all(1, q, 0);
@@ -81,6 +90,31 @@ Eccentricity amplitude(const Fitted& fit, std::size_t run, const Path& path, dou
   all.solve_transposed(0, gradient);
   return {run, gsl_cdf_fdist_Q(reduction / variance / 2, 2, left), e,
           std::sqrt(variance * dot(gradient, gradient)), std::atan2(by_sin, by_cos)};
+}
+
+/// True if the signal of one turn is that of the whole roll: a body is out of balance all along its
+/// way. What a hand or a filter leaves in the residuals differs from third to third of the way.
+/// What the response leaves out of a strong signal differs, too, but by little of it.
+bool is_all_along(const Fitted& fit, std::size_t run, const Path& path, double freedom,
+                  std::vector<double> f, std::span<const std::span<const double>> Q) {
+  const ObservedRun& of = fit.model.runs()[run];
+  std::vector<double> by_e = response(of, path, of.body.R);
+  const std::size_t n = path.size();
+  for (const double third : {1., 2.}) {
+    const double from = third / 3 * path.back()[0];
+    for (std::size_t i = 0; i < 2 * n; ++i) by_e.push_back(path[i % n][0] < from ? 0 : by_e[i]);
+  }
+  const std::size_t own = Q.size();
+  std::vector<double> columns = columns_beside(Q, fit, run, std::move(by_e));
+  Triangles all(1, own + 6, 0);
+  const double squares = dot(f, f);
+  all.add(0, f, columns);
+  if (!(all.smallest_sine() > 1e-6)) return true;
+  const double left = freedom - 6;
+  const double variance = (squares - all.reduction(own)) / left;
+  const double differ = all.reduction(own + 2);
+  return differ < levels::of_common * (all.reduction(own) - differ) ||
+         gsl_cdf_fdist_Q(differ / variance / 4, 4, left) > levels::thirds;
 }
 
 /// Cuts residuals off at a few standard deviations: a burst or a lost echo has all periods.
@@ -126,7 +160,9 @@ std::optional<Eccentricity> eccentricity_of(const Fitted& fit, const Matrix& Q) 
     Eccentricity once_a_turn = signal(1);
     once_a_turn.p *= static_cast<double>(rows.size());
     if (once_a_turn.p > levels::one_turn || (found && found->p < once_a_turn.p)) continue;
-    if (once_a_turn.p < std::min(signal(0.7).p, signal(1.4).p)) found = once_a_turn;
+    if (once_a_turn.p < std::min(signal(0.7).p, signal(1.4).p) &&
+        is_all_along(fit, r, path, freedom, f, Q_of[r]))
+      found = once_a_turn;
   }
   return found;
 }

@@ -33,6 +33,10 @@ inline constexpr double beginning = 0.001, beginning_white = 0.009;
 inline constexpr double clock_jump = 0.001;
 /// A signal of one turn, for all runs: 0.5 to 0.8 %, since another period must not explain it.
 inline constexpr double one_turn = 0.01;
+/// The thirds of a roll differ in their signal of one turn: 5 % of bodies out of balance do.
+inline constexpr double thirds = 0.05;
+/// Thirds that differ by less than this share of the squares of what they have in common are alike.
+inline constexpr double of_common = 0.1;
 /// In the search for one turn, a residual of more standard deviations than this counts as one of
 /// this many.
 inline constexpr double cut_off = 3;
