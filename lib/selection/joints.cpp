@@ -72,14 +72,14 @@ std::size_t Joints::agreeing(std::size_t from, std::size_t to) const {
 }
 
 /// The RSS of a roll from `begin` on that stops at the time `stop`; the samples from `joint` on
-/// are at rest.
-double Joints::rss_of_stop(std::size_t begin, std::size_t joint, double stop,
-                           std::size_t end) const {
+/// are at rest. An RSS above `most` is not of interest: what is returned then is above that, too.
+double Joints::rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end,
+                           double most) const {
   Fit fit;
   std::array<double, 5> row{};
   row[4] = 1;
   if (positions_) fit.add(row, 0);
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t i = begin; i < end && fit.rss() <= most; ++i) {
     const double u = i < joint ? samples_[i].t - stop : 0;
     row = {1, positions_ ? u * u : u};
     for (std::size_t k = 2; k < 4; ++k) row[k] = row[k - 1] * u;
@@ -91,13 +91,19 @@ double Joints::rss_of_stop(std::size_t begin, std::size_t joint, double stop,
 
 Ending Joints::before_stop(std::size_t begin, std::size_t roughly, std::size_t end) const {
   const std::size_t least = begin + (roughly - begin) / 2;
-  std::vector<double> cost;
-  for (std::size_t joint = least; joint < end; ++joint) {
-    cost.push_back(INFINITY);
+  const auto cost_of = [&](std::size_t joint, double most) {
+    double cost = INFINITY;
     for (const double part : {0.0, 0.25, 0.5, 0.75}) {
       const double stop = std::lerp(samples_[joint - 1].t, samples_[joint].t, part);
-      cost.back() = std::min(cost.back(), rss_of_stop(begin, joint, stop, end));
+      cost = std::min(cost, rss_of_stop(begin, joint, stop, end, std::min(cost, most)));
     }
+    return cost;
+  };
+  double lowest_yet = cost_of(std::min(roughly, end - 1), INFINITY);
+  std::vector<double> cost;
+  for (std::size_t joint = least; joint < end; ++joint) {
+    cost.push_back(cost_of(joint, lowest_yet + three_sigma));
+    lowest_yet = std::min(lowest_yet, cost.back());
   }
   const auto all = of_first(samples_.subspan(begin, end - begin), noise_, false,
                             [this](const Fit& fit) { return fit.rss(most_); });

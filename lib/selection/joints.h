@@ -63,7 +63,8 @@ class Joints {
   double unseen_push(const Piece& push, const Piece& roll) const;
 
  private:
-  double rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end) const;
+  double rss_of_stop(std::size_t begin, std::size_t joint, double stop, std::size_t end,
+                     double most) const;
 
   std::span<const Sample> samples_;
   bool positions_;
