@@ -189,9 +189,10 @@ std::vector<FreeRoll> rolls_of(std::span<const Sample> run, bool positions) {
   if (run.size() < 10) fail("a run of {} rows is too short to find its free roll", run.size());
   refuse_spikes(run, 0.12);
   if (positions) refuse_start_over(run);
-  auto [rolls, noise] = rolls_in_means(run, positions);
+  auto [of_means, noise] = rolls_in_means(run, positions);
+  std::vector<FreeRoll> rolls = std::move(of_means);
   if (rolls.empty()) rolls = rolls_in_parts(run, positions);
-  if (!rolls.empty()) return std::move(rolls);
+  if (!rolls.empty()) return rolls;
   refuse_spikes(run, 0.02);
   const auto [low, high] = std::ranges::minmax(run, {}, &Sample::y);
   fail<NoFreeRoll>(
