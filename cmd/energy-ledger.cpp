@@ -126,8 +126,8 @@ void doubt_mass(Tool& tool, const std::string& run, const Body& body) {
                                  body.m, body.R, body.m / 1000));
 }
 
-/// Checks the balance of a run.
-void check(Tool& tool, const std::string& run, const Balance& balance, double tolerance) {
+/// Checks the balance of the run that `in` has read.
+void check(Tool& tool, const Reader& in, const Balance& balance, double tolerance) {
   std::string beyond;
   const auto ask = [&](const char* name, double deviation, const std::string& when) {
     if (std::abs(deviation) > tolerance)
@@ -138,8 +138,12 @@ void check(Tool& tool, const std::string& run, const Balance& balance, double to
       fmt::format(" at t = {:.6g} s", balance.energy.time_of_imbalance()));
   if (balance.p.closure_tells()) ask("closure_p", balance.p.closure(), "");
   if (balance.L.closure_tells()) ask("closure_L", balance.L.closure(), "");
-  if (!beyond.empty())
-    tool.object(run, fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance));
+  if (beyond.empty()) return;
+  std::string line = fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance);
+  for (const std::string& filter : in.history())
+    if (filter.find(" width ") != filter.npos || filter.find(" seconds ") != filter.npos)
+      line += fmt::format("; a window that is too long does this: `{}`", filter);
+  tool.object(in.run_name(), line);
 }
 
 /// The body of a run whose D is a column: its `##` lines have the geometry. Where they have other
@@ -225,7 +229,7 @@ int balance_runs(Tool& tool, Reader& in, const Task& task, RowPipe* pipe) {
                "closure; choose the free roll: smooth --coast");
       without_closure = true;
     }
-    if (tool.checks) check(tool, in.run_name(), balance, task.tolerance);
+    if (tool.checks) check(tool, in, balance, task.tolerance);
   }
   value_of_run(task.list, task.masses.size(), 0, runs);
   if (beyond > 0)

@@ -315,9 +315,10 @@ std::string disagreement(const Agreement& found, const std::vector<Run>& runs, b
                   "the runs disagree by more than their noise (chi2 {:.4g} of {} degrees "
                   "of freedom, {})",
                   found.ratio, found.dof, p_of(found.p));
-  line += fmt::format(
-      ": run {} {}", runs[found.run].name,
-      found.runs > 2 ? "stands out" : "differs from the other (which of them is off is not known)");
+  line +=
+      fmt::format(": run {} {}", runs[found.run].name,
+                  found.runs > 2 ? "is furthest from the others"
+                                 : "differs from the other (which of them is off is not known)");
   if (found.log_D.sigma > 0)
     line += fmt::format(", in D({:.2g} m/s) by {:+.3g} +- {:.1g} %", found.speed,
                         100 * std::expm1(found.log_D.value), 100 * found.log_D.sigma);

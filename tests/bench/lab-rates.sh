@@ -24,7 +24,7 @@ for runs in "${@:2}"; do
       [ $off = 0 ] || raw "1.0$off" 3
       status=0
       lab/lab.sh --check -K 0.5 -R 0.04 -m 1.375 -o "$scratch/results" "$scratch/runs" >/dev/null 2>"$scratch/said" || status=$?
-      named=$(grep -Ec -m 1 'run 3[.]csv( stands out|:)' "$scratch/said" || true)
+      named=$(grep -Ec -m 1 'run 3[.]csv( is furthest|:)' "$scratch/said" || true)
       printf '%d\t%d\t%d\t%d\n' "$runs" $off $status "$named"
     done
   done

@@ -138,7 +138,7 @@ lab $bodies --slope fit two || complain "two bodies: $(cat said)"
 awk '!/^#/ { exit !($11 > 0.01 && ($1 - 1.87e-3)^2 < 16 * $2^2) }' results/joint.txt ||
   complain "two bodies: $(cat said results/joint.txt)"
 lab -K 0.5 -R 0.04 two
-grep -q 'fitpower: the runs disagree .* stands out' said || complain "one K for two bodies: $(cat said)"
+grep -q 'fitpower: the runs disagree .* is furthest from the others' said || complain "one K for two bodies: $(cat said)"
 echo none >two/5.csv
 lab $bodies two && complain 'a run is missing, and the K of the others is guessed'
 rm two/5.csv
@@ -175,7 +175,7 @@ simulate --scene ../CR.toml -a 2e-3 --sensor pasco --seed 105 >off/105.csv
 lab --check $of_body off && complain 'check: a run that is off'
 [ "$(tail -n 1 said)" = 'lab.sh: failed: see the lines above' ] || complain "the last line of a check that fails: $(cat said)"
 lab --check $of_body --accept 105.csv off || complain "--accept of a run that is off: $(cat said)"
-grep -q 'accepted: the runs disagree .*: run 105.csv stands out' said || complain "accepted: $(cat said)"
+grep -q 'accepted: the runs disagree .*: run 105.csv is furthest from the others' said || complain "accepted: $(cat said)"
 lab --check $of_body --accept 104.csv off && complain 'check: another run is accepted'
 # A folder without a file, and too many K.
 mkdir empty
