@@ -46,7 +46,7 @@ ln -sfn /usr/include/CLI /usr/include/boost "$sysroot/usr/include"
 # -Wno-psabi: g++ notes there, for each pair of doubles passed, that its version 9 did otherwise.
 make -s -j"$(nproc)" "${goals[@]}" AR=aarch64-linux-gnu-ar \
   CXX="${ARM64_CXX:-aarch64-linux-gnu-g++} -isystem sysroot/usr/include -Wno-psabi" \
-  LDFLAGS='-Lsysroot/usr/lib/aarch64-linux-gnu -Wl,-rpath-link,sysroot/usr/lib/aarch64-linux-gnu'
+  LDFLAGS='-Lsysroot/usr/lib/aarch64-linux-gnu -Lsysroot/usr/lib -Wl,-rpath-link,sysroot/usr/lib/aarch64-linux-gnu'
 
 if [ $# -gt 0 ]; then
   mkdir -p emulated/bin && cp -R samples emulated

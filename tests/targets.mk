@@ -36,10 +36,13 @@ build/tests/%_tests.cpp: $$(wildcard $$(addsuffix $$*,tests/unit/ tests/) tests/
 build/tests/%_tests.o: build/tests/%_tests.cpp build/flags
 	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-# Catch2 brings its own main: a library, or version 2 without one a header, which is compiled.
+# Catch2 brings its own main: a library, or version 2 without one a header, which is compiled; so it is
+# where flags change the containers of the C++ library.
 catch_library := $(if $(wildcard /usr/include/catch2/catch.hpp),\
-                   $(if $(wildcard /usr/lib/libCatch2WithMain.a),-lCatch2WithMain),-lCatch2Main -lCatch2)
-catch_main := $(if $(catch_library),,build/catch_main.o)
+                   $(if $(findstring -D_GLIBCXX,$(CPPFLAGS) $(CXXFLAGS)),,\
+                     $(if $(wildcard /usr/lib/libCatch2WithMain.a),-lCatch2WithMain)),\
+                   -lCatch2Main -lCatch2)
+catch_main := $(if $(strip $(catch_library)),,build/catch_main.o)
 build/unit: $(of_test) $(catch_main) build/lib.a
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(catch_library)
 
@@ -135,12 +138,13 @@ fuzz:
 	tests/fuzz/fuzz.sh build/fuzzing/build/fuzzer $(SECONDS) $(target)
 
 # The suite with another compiler, and with the library of macOS and FreeBSD: LIBCXX is its version.
-# What Debian has of fmt is compiled for the other library. Version 14 lacks algorithms of ranges.
+# What Debian has of fmt and Catch2 is compiled for the other library. Version 14 lacks algorithms of
+# ranges.
 check-clang:
 	@$(call copy,build/clang)
 	+$(call check_in,build/clang) CXX=clang++-14
 LIBCXX ?= 14
-libcxx  = CXX='clang++-$(LIBCXX) -stdlib=libc++' CPPFLAGS='-DFMT_HEADER_ONLY \
+libcxx  = catch_library= CXX='clang++-$(LIBCXX) -stdlib=libc++' CPPFLAGS='-DFMT_HEADER_ONLY \
           $(if $(filter 14,$(LIBCXX)),-include tests/libcxx/ranges.h)'
 check-libcxx:
 	@$(call copy,build/libcxx-$(LIBCXX))
