@@ -83,9 +83,9 @@ void doubt_speed(Tool&, const FitOfRuns&);
 /// "p = 0.003"
 std::string p_of(double p);
 
-/// "the runs disagree ...: run 3 is furthest from the others, its D(0.21 m/s) by -4.1 +- 0.4 %, its exponent by
-/// +0.012 +- 0.004; ...". In a check also, where the runs agree as a whole, that one of them is
-/// off. Empty if neither is so.
+/// "the runs disagree ...: run 3 is furthest from the others, in D(0.21 m/s) by -4.1 +- 0.4 %, in
+/// its exponent by +0.012 +- 0.004; ...". In a check also, if the runs agree as a whole, that one
+/// of them is off. Empty if neither is so.
 std::string disagreement(const Agreement&, const std::vector<Run>&, bool check);
 
 /// Warns of what spoils a fit: a shift beyond the radius, runs that disagree, readings that are off
