@@ -9,8 +9,8 @@ target := number reader scene $(tool)
         mutate coverage bad-runs lab-rates extremes peers results work-precision work-precision-signal bench \
         lint
 
-# The unit tests of a module are one source, which parses headers and Catch2 once (a third of the time):
-# the headers of its files, then each file in a namespace of its own. They are compiled with -Og.
+# The unit tests of a module are one source, which parses headers and Catch2 once, in a third of the
+# time: the headers of its files, then each file in a namespace of its own. They are compiled with -Og.
 module   := $(notdir $(patsubst %/,%,$(wildcard tests/unit/*/))) pipeline
 of_test  := $(module:%=build/tests/%_tests.o)
 of_bench := $(call object,$(wildcard tests/bench/*.cpp tests/fuzz/*.cpp))
@@ -262,9 +262,10 @@ ifeq ($(SHORT),)
 endif
 
 # How fast the tools are beside peers and bare loops: some minutes.
-bench: all build/bench/speed
+bench: all build/bench/speed build/unit
 	@PATH="$$PWD/bin:$$PATH" tests/bench/speed.sh $(call short,2000 1)
 	@PATH="$$PWD/bin:$$PATH" $(call short,: )tests/bench/profile.sh
+	build/unit '[time]'
 
 # Static analysis; .clang-tidy says what is checked. No function of lib/ is without a tool that calls it.
 lint:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processor time of fits beside that of the plain fit of good runs.
+// The processor time of fits beside that of the plain fit of good runs: of `make bench` alone,
+// since a busy machine would fail them.
 #include <ctime>
 
 #include "base/error.h"
@@ -27,14 +28,14 @@ std::vector<Run> many(PowerLaw law, int n) {
 
 }  // namespace
 
-TEST_CASE("time: all laws are compared in 13 fits of many runs", "[fit][time]") {
+TEST_CASE("time: all laws are compared in 13 fits of many runs", "[.][fit][time]") {
   const std::vector<Run> runs = many(rubber, 100);
   const double one = seconds([&] { fit(Route::position, runs, {}); });
   CHECK(seconds([&] { compare_laws(Route::position, runs, {}); }) < 13 * one);
 }
 
 TEST_CASE("time: a law that the runs hardly determine takes 20 fits of one that they do",
-          "[fit][time]") {
+          "[.][fit][time]") {
   const std::vector<Run> runs = many(felt, 60);
   FitOptions options;
   options.law = &laws()[5];
@@ -49,7 +50,7 @@ TEST_CASE("time: a law that the runs hardly determine takes 20 fits of one that 
   CHECK(seconds(to_its_end) < 20 * one);
 }
 
-TEST_CASE("time: a body at rest is refused in half a second for 300,000 rows", "[fit][time]") {
+TEST_CASE("time: a body at rest is refused in half a second for 300,000 rows", "[.][fit][time]") {
   simulated::Noise noise(7);
   Run run{};
   run.body = cylinder;
