@@ -4,7 +4,6 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -109,8 +108,8 @@ bool is_all_along(const Fitted& fit, std::size_t run, const Path& path, double f
   Triangles all(1, own + 6, 0);
   const double squares = dot(f, f);
   all.add(0, f, columns);
-  if (!(all.smallest_sine() > 1e-6)) return true;
   const double left = freedom - 6;
+  if (!(left > 0 && all.smallest_sine() > 1e-6)) return true;
   const double variance = (squares - all.reduction(own)) / left;
   const double differ = all.reduction(own + 2);
   return differ < levels::of_common * (all.reduction(own) - differ) ||
