@@ -126,12 +126,6 @@ void doubt_mass(Tool& tool, const std::string& run, const Body& body) {
                                  body.m, body.R, body.m / 1000));
 }
 
-/// True if a `##` line is of a window through which v went, or the x whose derivative it is.
-bool is_window_of_v(const std::string& line) {
-  const auto has = [&](const char* word) { return line.find(word) < line.size(); };
-  return (has("smooth v ") || has(" x ")) && (has(" width ") || has(" seconds "));
-}
-
 /// Checks the balance of the run that `in` has read.
 void check(Tool& tool, const Reader& in, const Balance& balance, double tolerance) {
   std::string beyond;
@@ -146,9 +140,8 @@ void check(Tool& tool, const Reader& in, const Balance& balance, double toleranc
   if (balance.L.closure_tells()) ask("closure_L", balance.L.closure(), "");
   if (beyond.empty()) return;
   std::string line = fmt::format("the check does not hold: {}: beyond {}", beyond, tolerance);
-  for (const std::string& filter : in.history())
-    if (is_window_of_v(filter))
-      line += fmt::format("; a window that is too long does this: `{}`", filter);
+  for (const std::string& filter : windows_of_v(in.history()))
+    line += fmt::format("; a window that is too long does this: `{}`", filter);
   tool.object(in.run_name(), line);
 }
 

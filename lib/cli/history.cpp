@@ -244,6 +244,15 @@ std::optional<bool> shifts_are_exact(const std::vector<std::string>& lines) {
   return exact;
 }
 
+std::vector<std::string> windows_of_v(const std::vector<std::string>& lines) {
+  std::vector<std::string> windows = lines;
+  std::erase_if(windows, [](const std::string& line) {
+    const auto has = [&](const char* word) { return line.find(word) < line.size(); };
+    return !((has("smooth v ") || has(" x ")) && (has(" width ") || has(" seconds ")));
+  });
+  return windows;
+}
+
 bool shifts_of_speeds(const std::vector<std::string>& lines) {
   constexpr std::string_view smooth = "smooth v ";
   const bool sorted = std::ranges::count(lines, lines_sorted) > 0;  // `smooth v` may be the first

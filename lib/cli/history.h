@@ -53,6 +53,9 @@ std::optional<bool> shifts_are_exact(const std::vector<std::string>& lines);
 /// True if, by the lines, D was computed from the derivative of the speeds in the file.
 bool shifts_of_speeds(const std::vector<std::string>& lines);
 
+/// The lines of windows through which v went, or the x whose derivative it is.
+std::vector<std::string> windows_of_v(const std::vector<std::string>& lines);
+
 /// True if some of the filters do not return what they read.
 bool change_numbers(const FilterChain&);
 
