@@ -75,6 +75,7 @@ TOOLS = {
     "cli": ["fitpower", "simulate"],
     "contact": ["energy-ledger", "shift-from-accel"],
     "fit": ["fitpower"],
+    "law": ["fitpower", "simulate"],
     "least_squares": ["fitpower"],
     "motion": ["simulate"],
     "noise": ["fitpower"],

@@ -11,6 +11,7 @@
 #include "base/enumeration.h"
 #include "base/error.h"
 #include "contact/body.h"
+#include "fit/input.h"
 #include "signal/method.h"
 #include "text/row_pipe.h"
 #include "text/head.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/input.h"
+#include "noise/run.h"
 #include "text/column.h"
 
 namespace rolling {

@@ -12,7 +12,7 @@
 
 #include "base/matrix.h"
 #include "cli/tool.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "contact/road.h"
 #include "fit/input.h"
 #include "text/column.h"

@@ -30,7 +30,7 @@ struct LawFit {
   Matrix correlations = {};
 };
 
-/// The fits of all laws of contact/law.h, a v^b first.
+/// The fits of all laws of law/law.h, a v^b first.
 struct LawComparison {
   std::vector<LawFit> fits;
   /// The best law beside the one that was asked for (FitOptions::law), in `fits`; a special case of

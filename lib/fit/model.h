@@ -20,7 +20,7 @@
 // parameters that it stands for.
 #pragma once
 
-#include "contact/law.h"
+#include "law/law.h"
 #include "fit/input.h"
 #include "least_squares/minimise.h"
 #include "motion/roll.h"

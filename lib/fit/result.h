@@ -11,7 +11,7 @@
 
 #include "base/estimate.h"
 #include "base/matrix.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "fit/input.h"
 #include "statistics/run_laws.h"
 

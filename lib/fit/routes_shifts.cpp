@@ -12,7 +12,7 @@
 #include "base/matrix.h"
 #include "base/median.h"
 #include "contact/contact.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "fit/uncertainty.h"
 #include "statistics/logarithm_of_noise.h"
 

@@ -102,7 +102,7 @@ std::vector<double> trimmed_step(const System& system, const std::vector<double>
 }
 
 /// Steps of least trimmed squares, halved where necessary, as long as they lower the scale.
-Minimum descend(const System& system, Minimum at) {
+Minimum descend_by_halves(const System& system, Minimum at) {
   constexpr int rounds = 20;
   constexpr int halvings = 5;
   for (int round = 0; round < rounds && std::isfinite(at.rss); ++round) {
@@ -126,7 +126,7 @@ Minimum descend(const System& system, Minimum at) {
 Minimum least_trimmed(const System& system, const std::vector<std::vector<double>>& starts) {
   Minimum best;
   for (const auto& start : starts)
-    if (Minimum found = descend(system, tried(system, start));
+    if (Minimum found = descend_by_halves(system, tried(system, start));
         scale_of(system, found) < scale_of(system, best))
       best = std::move(found);
   return std::isfinite(best.rss) ? best : evaluated(system, starts.front());

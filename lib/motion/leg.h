@@ -11,7 +11,7 @@
 
 #include "base/chebyshev.h"
 #include "contact/contact.h"
-#include "contact/law.h"
+#include "law/law.h"
 
 namespace rolling {
 

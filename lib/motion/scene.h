@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/body.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "motion/roll.h"
 #include "ode/integrator.h"
 

@@ -13,9 +13,10 @@ namespace {
 
 /// The samples that show the local motion: the one in question and its neighbours; at the ends of a
 /// run, where the parabola goes beyond its samples, it needs more of them.
-constexpr std::size_t near = 11, near_end = 26;
+constexpr std::size_t nearby = 11;
+constexpr std::size_t near_end = 26;
 
-/// The lower quartile of the scatter of `near` normal readings about their parabola, in units of
+/// The lower quartile of the scatter of `nearby` normal readings about their parabola, in units of
 /// their standard deviation: the root of that of chi square with 8 degrees of freedom, over 8.
 constexpr double quartile = 0.79;
 
@@ -83,7 +84,7 @@ struct Neighbours {
 }  // namespace
 
 Outliers::Outliers(Width width, double threshold)
-    : near_({near, 0}, Windows::Ends::stay), scatter_(at_least_151(width), Windows::Ends::cut),
+    : near_({nearby, 0}, Windows::Ends::stay), scatter_(at_least_151(width), Windows::Ends::cut),
       threshold_(threshold) {}
 
 std::span<const Sample> Outliers::push(double t, double y) {
@@ -113,7 +114,7 @@ std::span<const Sample> Outliers::finish() {
 double Outliers::least_scatter() const { return std::max(step_ / 3, program_rounding * large_); }
 
 /// Whether one outlier is in so many windows that these do not tell the scatter of the others.
-bool Outliers::few() const { return scatter_.size() < 3 * near; }
+bool Outliers::few() const { return scatter_.size() < 3 * nearby; }
 
 std::deque<Sample>::const_iterator Outliers::at(std::size_t i) const {
   return samples_.begin() + static_cast<std::ptrdiff_t>(i - first_);
@@ -122,12 +123,12 @@ std::deque<Sample>::const_iterator Outliers::at(std::size_t i) const {
 /// Whether sample i is on the motion of its neighbours, whose readings have this noise.
 bool Outliers::belongs(std::size_t i, double noise) const {
   const Sample& s = *at(i);
-  const bool inside = i >= near / 2 && i + near / 2 < count_;
-  const std::size_t size = inside ? near : near_end;
-  const std::size_t before = i - std::min(i, near / 2);
+  const bool inside = i >= nearby / 2 && i + nearby / 2 < count_;
+  const std::size_t size = inside ? nearby : near_end;
+  const std::size_t before = i - std::min(i, nearby / 2);
   const std::size_t last = count_ - std::min(count_, size);
   const std::size_t begin = std::max(first_, std::min(before, last));
-  const std::size_t end = std::min(std::max(i + near / 2 + 1, begin + size), count_);
+  const std::size_t end = std::min(std::max(i + nearby / 2 + 1, begin + size), count_);
   const Neighbours others(at(begin), at(end), s, &s);
   if (others.size < 4) return true;
   noise = (few() ? least_scatter() : noise) / others.unit;
@@ -153,7 +154,7 @@ void Outliers::judge() {
     const SortedWindow& sorted = sorted_.of(scatter_);
     const std::size_t i = scatter_.at();
     const double noise =
-        std::max(sorted[sorted.size() / 4] / std::sqrt(static_cast<double>(near - 3)) / quartile,
+        std::max(sorted[sorted.size() / 4] / std::sqrt(static_cast<double>(nearby - 3)) / quartile,
                  least_scatter());
     // No reading is further from the motion than the root of the RSS, in standard errors.
     const bool near_all = !few() && scatter_.sample(i).y <= threshold_ * noise;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/error.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "fit/refits.h"
 #include "fit/fit.h"
 #include "fit/fitted.h"
@@ -175,7 +175,7 @@ inline std::vector<Trouble> troubles() {
           {.name = "hand on for 0.2 s", .hand = 0.2}};
 }
 
-/// A law of contact/law.h with coefficients such as a mat may have.
+/// A law of law/law.h with coefficients such as a mat may have.
 struct Truth {
   std::size_t law;
   std::vector<double> c;

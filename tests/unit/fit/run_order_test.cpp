@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "unit/catch.h"
 #include "unit/fit/simulated.h"
 

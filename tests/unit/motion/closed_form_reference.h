@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "contact/body.h"
-#include "contact/law.h"
+#include "law/law.h"
 
 namespace rolling {
 

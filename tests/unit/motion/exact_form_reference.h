@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "contact/body.h"
-#include "contact/law.h"
+#include "law/law.h"
 #include "unit/motion/random_scene.h"
 
 namespace rolling {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "contact/body.h"
-#include "contact/law.h"
+#include "law/law.h"
 
 namespace rolling {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/law.h"
+#include "law/law.h"
 
 #include <gsl/gsl_interp.h>
 

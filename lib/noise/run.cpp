@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/input.h"
+#include "noise/run.h"
 
 #include <algorithm>
 #include <cmath>
