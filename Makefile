@@ -46,6 +46,11 @@ source := $(wildcard lib/*/*.cpp)
 tool   := $(patsubst cmd/%.cpp,%,$(wildcard cmd/*.cpp))
 object  = $(patsubst %.cpp,build/%.o,$1)
 
+# A module is compiled as one source, build/lib/MODULE.cpp, which includes its files: in a third of
+# the time. The files of cli are compiled apart, since a tool links only those that it calls.
+whole  := $(filter-out cli,$(sort $(notdir $(patsubst %/,%,$(dir $(source))))))
+of_lib := $(whole:%=build/lib/%.o) $(call object,$(filter lib/cli/%,$(source)))
+
 .PHONY: all table1 paper samples figures report html check install uninstall static deb clean
 .SECONDARY:
 all: $(tool:%=bin/%)
@@ -54,7 +59,7 @@ bin/%: build/cmd/%.o build/lib.a
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
-build/lib.a: $(call object,$(source))
+build/lib.a: $(of_lib)
 	rm -f $@ && $(AR) rcs $@ $^
 
 # A checkout has its commit in the version.
@@ -63,15 +68,20 @@ commit ?= $(if $(wildcard .git),$(addprefix +,$(shell \
 build/commit: $(if $(SHORT)$(filter install,$(MAKECMDGOALS)),,always)
 	@mkdir -p $(@D)
 	@$(call if_new,printf '%s\n' '$(commit)')
-build/lib/base/version.o: build/commit
-build/lib/base/version.o: override CPPFLAGS += -DROLLING_COMMIT='"$(commit)"'
+build/lib/base.o: build/commit
+build/lib/base.o: override CPPFLAGS += -DROLLING_COMMIT='"$(commit)"'
 
 # CLI11 runs once, and at -O2 it takes as long to compile as five other sources.
 build/lib/cli/tool_options.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
 
+build/lib/%.cpp: lib/%
+	@mkdir -p $(@D)
+	@printf '#include "%s"\n' $(patsubst lib/%,%,$(sort $(wildcard $</*.cpp))) >$@
+build/%.o: build/%.cpp build/flags
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 build/%.o: %.cpp build/flags
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
 # The compiler and its flags: a build with others compiles all again, but `make install` installs and
 # SHORT=1 runs what was built.
@@ -81,21 +91,7 @@ build/flags: $(if $(SHORT)$(filter install,$(MAKECMDGOALS)),,always)
 	@$(call if_new,printf '%s\n' '$(subst ','\'',$(flags))')
 .PHONY: always
 
-# The headers that most sources include are parsed once, which saves a third of the time of a build.
-# Each source includes them all the same: a compiler that is named, CXX=clang++, parses them there.
-ifeq ($(origin CXX)$(filter Darwin FreeBSD,$(system)),default)
-common  := $(patsubst %,<%>,algorithm array cmath cstddef functional limits map memory numeric \
-             optional span string string_view utility vector fmt/core.h)
-of_tool := $(call object,$(filter-out %/tool_options.cpp,$(source)) $(wildcard cmd/*.cpp))
-$(of_tool): parsed := -include build/common.h
-$(of_tool): | build/common.h.gch
-build/common.h.gch: build/flags
-	@mkdir -p $(@D)
-	printf '#include %s\n' $(common:%='%') >build/common.h
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/common.h
-endif
-
--include $(patsubst %.o,%.d,$(call object,$(source) $(wildcard cmd/*.cpp)))
+-include $(patsubst %.o,%.d,$(of_lib) $(call object,$(wildcard cmd/*.cpp)))
 
 table1: all
 	@PATH="$$PWD/bin:$$PATH" samples/table1.sh

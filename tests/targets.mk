@@ -14,27 +14,17 @@ target := number reader scene $(tool)
 module   := $(notdir $(patsubst %/,%,$(wildcard tests/unit/*/))) pipeline
 of_test  := $(module:%=build/tests/%_tests.o)
 of_bench := $(call object,$(wildcard tests/bench/*.cpp tests/fuzz/*.cpp))
--include $(patsubst %.o,%.d,$(of_test) $(of_bench) build/tests/fused/fused.o)
-$(of_test) build/catch.h.gch build/catch_main.o: override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
-$(of_test) build/catch.h.gch: override CPPFLAGS += -Itests
-ifneq ($(common),)
-$(of_test): parsed := -include build/catch.h
-$(of_test): | build/catch.h.gch
-$(of_bench): parsed := -include build/common.h
-$(of_bench): | build/common.h.gch
-build/catch.h.gch: tests/unit/catch.h build/flags
-	@mkdir -p $(@D)
-	printf '#include %s\n' $(common:%='%') '<random>' '"unit/catch.h"' >build/catch.h
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ build/catch.h
-endif
+-include $(patsubst %.o,%.d,$(of_test) $(of_bench) build/tests/fused/fused.o) \
+         $(shell find build/fused -name '*.d' 2>/dev/null)
+without_time := $(patsubst %,build/tests/bench/%.o,coverage troubles ulp)
+$(of_test) build/catch_main.o $(without_time): override CXXFLAGS := $(CXXFLAGS:-O2=-Og)
+$(of_test): override CPPFLAGS += -Itests
 .SECONDEXPANSION:
 build/tests/%_tests.cpp: $$(wildcard $$(addsuffix $$*,tests/unit/ tests/) tests/unit/$$*/*.cpp tests/$$*/*.cpp)
 	@mkdir -p $(@D)
 	@{ cat $(filter %.cpp,$^) | grep '^#include' | grep -v '[.]inc"' | sort -u; \
 	  for file in $(filter %.cpp,$(^:tests/%=%)); do \
 	    printf 'namespace %s {\n#include "%s"\n}\n' "$$(basename $$file .cpp)" $$file; done; } >$@
-build/tests/%_tests.o: build/tests/%_tests.cpp build/flags
-	$(CXX) $(CPPFLAGS) $(parsed) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
 # Catch2 brings its own main: a library, or version 2 without one a header, which is compiled; so it is
 # where flags change the containers of the C++ library.
@@ -57,27 +47,21 @@ build/unit-%: build/tests/%_tests.o $(catch_main) build/lib.a
 
 # The exact arithmetic built as it is, and with flags in front of the project's that would fuse
 # multiplications and additions: tests/pipeline/fused.sh compares what the two print, and smooth and
-# differentiate with their sums and numbers built so.
-exact_source := tests/fused/fused.cpp $(wildcard lib/contact/*.cpp lib/ode/*.cpp) \
-                $(filter-out lib/motion/scene_measure.cpp,$(wildcard lib/motion/*.cpp))
+# differentiate with their sums built so.
 has_fma := $(shell grep -qw avx2 /proc/cpuinfo 2>/dev/null && grep -qw fma /proc/cpuinfo && \
                    uname -m | grep -x x86_64)
-build/fused/obj/%.o: %.cpp
+build/fused/obj/%.o: %.cpp build/flags
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) -O3 -march=x86-64-v3 -ffp-contract=fast $(filter-out -O%,$(CXXFLAGS)) \
 	  -MMD -MP -c -o $@ $<
--include $(wildcard build/fused/obj/*/*/*.d)
-build/fused/fused: $(exact_source:%.cpp=build/fused/obj/%.o)
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
-build/fused/plain: $(exact_source:%.cpp=build/%.o)
-	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
-fused_room := $(patsubst %,build/fused/obj/lib/%.o,text/number \
-                $(addprefix signal/,derivative method savitzky_golay windows))
-build/fused/bin/%: $(fused_room) build/cmd/%.o build/lib.a
-	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+built_so = $(patsubst %,build/fused/obj/build/lib/%.o,$1)
+build/fused/fused: build/fused/obj/tests/fused/fused.o $(call built_so,contact law motion ode)
+build/fused/plain: build/tests/fused/fused.o
+$(addprefix build/fused/bin/,smooth differentiate): build/fused/bin/%: build/cmd/%.o $(call built_so,signal)
 fused := $(addprefix build/fused/,plain fused bin/smooth bin/differentiate)
+$(fused): build/lib.a
+	@mkdir -p $(@D)
+	$(CXX) $(CXXFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $< $(LDLIBS)
 
 # What the suite does not build rots: every source is compiled, those of measurements too.
 bench := $(patsubst tests/bench/%.cpp,build/bench/%,$(filter-out %/coverage.cpp,\
@@ -267,7 +251,8 @@ bench: all build/bench/speed build/unit
 	@PATH="$$PWD/bin:$$PATH" $(call short,: )tests/bench/profile.sh
 	build/unit '[time]'
 
-# Static analysis; .clang-tidy says what is checked. No function of lib/ is without a tool that calls it.
+# Static analysis; .clang-tidy says what is checked. calls.sh: no function is without a
+# tool that calls it.
 lint:
 	clang-format-14 --dry-run --Werror $$(find lib cmd tests -name '*.cpp' -o -name '*.h')
 	mandoc -Tlint -Wwarning man/*
@@ -282,6 +267,6 @@ lint:
 	clang++-14 -fsyntax-only -Werror -Wcomma $(CPPFLAGS) $(CXXFLAGS) $(source) cmd/*.cpp
 	printf '%s\n' $(wildcard tests/*/*.cpp tests/*/*/*.cpp) | xargs -P $$(nproc) -n 4 \
 	  clang++-14 -fsyntax-only -Werror '-DTOOL=""' $(CPPFLAGS) -Itests $(CXXFLAGS)
-	tests/unused.sh
+	tests/calls.sh
 	set -e; for script in form layers includes words clean-text; do tests/house/$$script.sh; done
 

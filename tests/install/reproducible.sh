@@ -24,7 +24,7 @@ build() {  # FOLDER
   else
     # lib.a stays as it is: what is compiled here is compared by itself.
     g=${CXX:-g++}
-    make build/cmd/differentiate.o build/lib/contact/contact.o CXX="$g" &&
+    make build/cmd/differentiate.o build/lib/contact.o CXX="$g" &&
       make -o build/lib.a bin/differentiate CXX="$g" && mv bin/differentiate build &&
       cp "$top/bin/differentiate" bin && TOOLS=bin cmd/install/static.sh any &&
       if command -v dpkg-shlibdeps; then TOOLS=bin cmd/install/deb.sh; fi

@@ -57,7 +57,7 @@ said=$(make -n setup table1 2>/dev/null | head -n 1)
 mkdir -p "$scratch/flags/lib/one" "$scratch/flags/tests"
 cp Makefile "$scratch/flags" && cp tests/targets.mk "$scratch/flags/tests"
 echo 'int one();' >"$scratch/flags/lib/one/one.cpp"
-compiled() { (cd "$scratch/flags" && make CXX=g++ build/lib/one/one.o "$@" 2>&1) | grep -c ' -c '; }
+compiled() { (cd "$scratch/flags" && make CXX=g++ build/lib/one.o "$@" 2>&1) | grep -c ' -c '; }
 said="$(compiled) $(compiled) $(compiled CXXFLAGS=-O1) $(compiled CXXFLAGS=-O1) $(compiled)"
 [ "$said" = '1 0 1 0 1' ] || complain "compilations by flags: $said"
 

@@ -16,7 +16,7 @@ build/fused/plain >"$plain"
 [ "$(wc -l <"$plain")" -gt 8000 ]
 build/fused/fused | cmp - "$plain"
 
-# Sums of windows, numbers read and numbers written.
+# Sums of windows.
 filtered() {  # FOLDER OF THE TOOLS
   local name
   for name in CF CR SF SR; do
