@@ -278,7 +278,8 @@ Roll Model::roll(const std::vector<double>& theta, std::size_t run) const {
   // A search may come to such laws, under which a body in a hollow creeps: this takes seconds.
   if (law.at(parameters_.speed_unit()).D > body.R) fail("D is beyond the radius");
   const double x0 = parameters_.has_x0() ? parameters_.x0(theta, run) : runs()[run].x0;
-  return {body, law, v0, way * x0};
+  constexpr double tolerance = 1e-9;  // of a step on a road: far below the noise of any sensor
+  return {body, law, v0, way * x0, tolerance};
 }
 
 namespace {
