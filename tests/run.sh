@@ -83,6 +83,10 @@ run_case() {  # the path of a case, as plan_cases left it
   (cd "$1" && ulimit -t "$((60 * slower))" && TMPDIR=$2 exec timeout "$((600 * slower))" \
     bash "$1.command") </dev/null >"$2/out" 2>"$2/err"
   status=$?
+  if [ "$status" = "$wanted" ] && [ ! -f "$1.within" ] && same "$expected" "$2/out" && same "$errors" "$2/err"; then
+    echo 1 0 0 >"$2/counts"
+    return
+  fi
   # The version of a build is not what a case is about.
   sed -i 's/^## fitpower 1[^ ]* /## fitpower VERSION /' "$2/out"
   {
@@ -102,6 +106,12 @@ run_case() {  # the path of a case, as plan_cases left it
   else
     echo 1 0 0 >"$2/counts"
   fi
+}
+
+# Whether two files of text are the same, which starts no program: what is not is compared by diff.
+same() {
+  local one other
+  ! IFS= read -rd '' one <"$1" && ! IFS= read -rd '' other <"$2" && [ "$one" = "$other" ]  # no NUL
 }
 
 run_script() {
@@ -199,8 +209,10 @@ tell() {
     sum=0 bad=0
     for ((i = first; i < ${#paths[@]}; ++i)); do
       [ "${groups[i]}" = "${groups[first]}" ] || break
-      grep -v '^SKIP ' "$scratch/$i/says"
-      grep '^SKIP ' "$scratch/$i/says" >>"$scratch/skips"
+      if [ -s "$scratch/$i/says" ]; then
+        grep -v '^SKIP ' "$scratch/$i/says"
+        grep '^SKIP ' "$scratch/$i/says" >>"$scratch/skips"
+      fi
       passed=0 failed=1 skipped=0
       if [ -s "$scratch/$i/counts" ]; then
         read -r passed failed skipped <"$scratch/$i/counts"

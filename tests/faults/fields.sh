@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What is not a number, in every column that each tool needs (a fifth of them, each with LONG=1); and
+# What is not a number, in every column that each tool needs (a tenth of them, each with LONG=1); and
 # what is not a file of columns.
 . "$(dirname "$0")/tools"
 

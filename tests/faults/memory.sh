@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every allocation of every tool fails in turn, by itself and with all after it: each time one line
-# and 2, never an abort. LONG=1 takes each of them, otherwise one of 31, or of 7.
+# and 2, never an abort. LONG=1 takes each of them, otherwise one of 61, or of 13.
 . "$(dirname "$0")/tools"
 preloads || { echo 'skipped: nothing can be preloaded into this build'; exit 77; }
 good 40 >"$scratch/good"
 printf 'radius = 0.04\nshape-factor = 0.5\nmass = 1\n' >"$scratch/scene"
-step=31 each=7  # where few allocations are of interest
+step=61 each=13  # where few allocations are of interest
 [ -z "${LONG:-}" ] || step=1 each=1
 
 each_allocation() {  # COMMAND...

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # No option passes without effect: alone and beside each other one it is refused, or it changes what
-# is printed or the exit status. Of the pairs a fifth is tried, all with LONG=1.
+# is printed or the exit status. Of the pairs a tenth is tried, all with LONG=1.
 . "$(dirname "$0")/tools"
 samples=$PWD/samples
 cd "$scratch" || exit 2

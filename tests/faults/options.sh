@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every option of --help with values that are none (a fifth of them, each with LONG=1), twice, and
+# Every option of --help with values that are none (a tenth of them, each with LONG=1), twice, and
 # without a value; then values that mean nothing.
 . "$(dirname "$0")/tools"
 good 9 >"$scratch/good"

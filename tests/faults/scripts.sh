@@ -56,19 +56,26 @@ ended='set -m
   sleep 0.2
   for _ in 1 2 3 4 5 6 7 8; do kill -TERM -- -$script 2>/dev/null; sleep 0.001; done
   wait $script'
-# faults SCRIPT OPERAND...: each of them.
+# faults SCRIPT OPERAND...: each of them; in a script that writes to its scratch alone one of them, in
+# turn, and each with LONG=1.
+turn=0
 faults() {
-  attempt 'no TMPDIR' env TMPDIR=/nonexistent "$@"
-  attempt 'ended in the middle' bash -c "$ended" ended "$@"
-  [ ! "$mounts" ] || attempt 'full TMPDIR' env TMPDIR="$scratch/full" "$@"
+  turn=$(((turn + 1) % 3))
+  [ $turn != 0 ] && few || attempt 'no TMPDIR' env TMPDIR=/nonexistent "$@"
+  [ $turn != 1 ] && few || attempt 'ended in the middle' bash -c "$ended" ended "$@"
+  [ ! "$mounts" ] || { [ $turn != 2 ] && few; } || attempt 'full TMPDIR' env TMPDIR="$scratch/full" "$@"
 }
+few() { [ -z "${LONG-}" ] && [ ! "$writes" ]; }
+writes=''
 # makes SCRIPT OPERAND...: the same of a script that writes to $made, where the same stands before.
 makes() {
   rm -rf "${made:?}"/* "$made.before"
   attempt 'no fault' "$@"
   [ "$(ls -A "$made")" ] || complain "makes nothing: $* $(cat "$scratch/out")"
   cp -R "$made" "$made.before"
+  writes=yes
   faults "$@"
+  writes=''
   unharmed "$made" "$@"
   [ "$mounts" ] || return 0
   mount -t tmpfs -o size=64m none "$made" && cp -R "$made.before/." "$made" &&

@@ -35,7 +35,7 @@ all_scripts() {
   "$samples/table1.sh" >"$out/table1"
   mkdir "$out/exports" && "$samples/exports/make.sh" "$out/exports"
   if command -v gnuplot >/dev/null; then
-    for name in ${LONG:+fig1 fig2 fig3 fig5 energy} fig1-stop fig4 turn; do
+    for name in ${LONG:+fig1 fig2 fig3 fig5 energy fig1-stop turn} fig4; do
       "$samples/figures/$name.sh" >"$out/$name.svg"
     done
     if [ -n "${LONG:-}" ]; then

@@ -55,13 +55,13 @@ for prefix in '' roll-; do
       [ -z "$prefix" ] || ! man -M "$root/share/man" -w "$plain" >/dev/null 2>&1 ||
         complain "man finds a page $plain"
     fi
-    # A page refers to what is there: with the prefix too.
-    while read -r name section; do
-      case $name in awk | sed | sort | gnuplot) continue ;; esac
-      [ -r "$root/share/man/man$section/$name.$section" ] ||
-        complain "$page refers to $name($section), which is not installed"
-    done < <(grep -ohE 'Xr [^ ]+ [1-8]' "$page" "$root"/share/man/man[57]/* | cut -d ' ' -f 2,3 | sort -u)
   done
+  # A page refers to what is there: with the prefix too.
+  while read -r name section; do
+    case $name in awk | sed | sort | gnuplot) continue ;; esac
+    [ -r "$root/share/man/man$section/$name.$section" ] ||
+      complain "a page refers to $name($section), which is not installed"
+  done < <(grep -ohE 'Xr [^ ]+ [1-8]' "$root"/share/man/man[157]/* | cut -d ' ' -f 2,3 | sort -u)
   [ "$(find "$root/bin" -name "${prefix}*" ! -name smoother -type f -perm 755 | wc -l)" = "$(find cmd/*.cpp | wc -l)" ] || complain "other programs than those of cmd/: $(ls "$root/bin")"
   [ -z "$(find "$root/share" -type f ! -name mine ! -name other ! -name '*.sh' ! -perm 644)" ] ||
     complain "modes: $(find "$root/share" -type f ! -perm 644)"

@@ -21,8 +21,8 @@ simulate -K 0.04 -R 0.3 --law car --v0 33 --height hills --until 140 --dt 1 --co
 echo >>both
 simulate -K 0.04 -R 0.3 --law car --v0 -33 --x0 2400 --height hills --until 140 --dt 1 --columns t,v >>both
 simulate -K 0.4 -R 0.0127 --law ball --v0 0 --x0 0.15 --height bowl --until 9 --dt 0.04 --columns t,x >swings
-cars=20 least=16 balls=6
-[ -z "${LONG-}" ] || cars=40 least=34
+cars=8 least=6 balls=3
+[ -z "${LONG-}" ] || cars=40 least=34 balls=6
 roads() {  # LARGEST_SIGMA [OPTION]...
   for seed in $(seq $cars); do
     noisy "$seed" 0.05 <both | fitpower -q -K 0.04 -R 0.3 --law d0+d2*v^2 --height hills --slope fit "${@:2}" | tail -n 1

@@ -31,14 +31,14 @@ awk '/^#/ { print; next } { print $1 "\t" (-$2) }' "$scratch/own" >"$scratch/own
 for figure in fig2 fig3 fig5; do
   for run in own own-mirrored; do
     for at in 0.1 0.5; do
-      in_turn 3 || continue
+      in_turn 5 || continue
       # shellcheck disable=SC2086  # words
       samples/figures/$figure.sh $body --at $at "$scratch/$run" >"$scratch/one.svg" 2>"$scratch/said" || complain "$figure of $run: $?"
       samples/figures/$figure.sh --at $at >"$scratch/scene.svg"
       diff <(texts "$scratch/one.svg") <(texts "$scratch/scene.svg") || complain "$figure of $run at $at is not that of the scene"
+      grep -q 'smooth: --coast keeps' "$scratch/said" || complain "$figure does not pass on what smooth says"
     done
   done
-  grep -q 'smooth: --coast keeps' "$scratch/said" || complain "$figure does not pass on what smooth says"
 done
 simulate -K 0.4 -R 0.0127 -a 5e-5 -b 0.1 --slope 0.02 --v0 0.5 --sensor pasco --until 6.4 --seed 1 >"$scratch/ball"
 for command in "energy $body samples/CR.csv" "turn -K 0.4 -R 0.0127 -m 0.067 $scratch/ball"; do
@@ -46,20 +46,20 @@ for command in "energy $body samples/CR.csv" "turn -K 0.4 -R 0.0127 -m 0.067 $sc
   samples/figures/${command%% *}.sh ${command#* } 2>/dev/null | cmp - "$scratch/${command%% *}.svg" || complain "$command: another picture"
 done
 { cat samples/CR.csv && echo ',,' && cat samples/SR.csv; } >"$scratch/two.csv"
-for figure in fig1-stop fig2 fig3 fig5 energy turn; do
+for figure in ${LONG:+fig1-stop fig2 fig5 turn} fig3 energy; do
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body "$scratch/two.csv" >"$scratch/one.svg" 2>"$scratch/said" && complain "$figure of two runs"
   grep -q "^$figure.sh: this figure is of one run, not of 2: choose it with --run" "$scratch/said" && [ ! -s "$scratch/one.svg" ] ||
     complain "$figure of two runs: $(cat "$scratch/said")"
 done
-for figure in ${LONG:+fig1 fig2 fig4 fig5} fig1-stop fig3 energy residuals; do
+for figure in ${LONG:+fig1 fig2 fig4 fig5 fig1-stop energy} fig3 residuals; do
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body --law 'd0+d2*v^2' samples/CR.csv >"$scratch/law.svg" 2>"$scratch/said" || complain "$figure --law: $?"
   grep -q '^fitpower: run .*: ' "$scratch/said" || complain "$figure does not pass on what fitpower says"
   cmp -s "$scratch/law.svg" "$scratch/$figure.svg" && complain "$figure --law changes nothing"
 done
 names() { sed 's/two [12]/CR/; s/SR/CR/' "$1"; }
-for figure in fig1 fig2 fig4 fig5 ${LONG:+fig1-stop fig3 energy residuals}; do
+for figure in fig1 fig5 ${LONG:+fig1-stop fig2 fig3 fig4 energy residuals}; do
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body --run 2 "$scratch/two.csv" >"$scratch/one.svg" 2>/dev/null || complain "$figure --run 2: $?"
   # shellcheck disable=SC2086
@@ -67,13 +67,13 @@ for figure in fig1 fig2 fig4 fig5 ${LONG:+fig1-stop fig3 energy residuals}; do
     complain "$figure --run 2 is not that of its run"
   # What rolled is not guessed, and is nothing for the samples; a radius in millimetres is told.
   for wrong_one in '-K 0.5' '-R 0.04' '-m 1.375' '--run 1' '-c x' '--law d0'; do
-    in_turn 5 || continue
+    in_turn 2 || continue
     # shellcheck disable=SC2086
     said=$(samples/figures/$figure.sh $wrong_one 2>&1) && complain "$figure $wrong_one: the samples"
     [ "$said" = "$figure.sh: -${wrong_one#-}" ] || [ "$said" = "$figure.sh: ${wrong_one% *} is for a run of your own: name its FILE" ] ||
       complain "$figure $wrong_one: $said"
   done
-  in_turn 4 || continue
+  in_turn 2 || continue
   samples/figures/$figure.sh -K 0.5 -R 40 -m 1.375 samples/CR.csv 2>&1 >/dev/null | grep -q 'write 0.04 if that is millimetres' ||
     complain "$figure -R 40 is not told"
 done
@@ -102,7 +102,7 @@ texts "$scratch/one.svg" | grep -q 'not seen above the noise' || complain 'fig1-
 texts "$scratch/one.svg" | awk 'length > 75 { print "fig1-stop: too long: " $0; bad = 1 } END { exit bad }' || wrong=1
 # Ten rows, or as few as smooth takes for a roll, are a picture or a line.
 simulate --scene samples/CR.toml --dt 0.2 --columns t,x | awk '/^#/ { print; next } { printf "%s\t%.3f\n", $1, $2 }' >"$scratch/few"
-for figure in fig1 fig4 energy residuals; do
+for figure in ${LONG:+fig1 energy} fig4 residuals; do
   # shellcheck disable=SC2086
   samples/figures/$figure.sh $body "$scratch/few" >"$scratch/one.svg" 2>"$scratch/said" && ! grep -v '^smooth:' "$scratch/said" &&
     grep -q '^</svg>' "$scratch/one.svg" || complain "$figure of few rows: $(cat "$scratch/said")"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of random cases take a fifth of them, so that `make check` ends soon; all of them with
+// Tests of random cases take a tenth of them, so that `make check` ends soon; all of them with
 // LONG=1 in the environment, as `make check-long` sets it. How many of them may be off by chance
 // follows from their number.
 #pragma once
@@ -9,12 +9,12 @@
 #include <cstdlib>
 
 /// How many of `all` cases are taken.
-inline unsigned of_many(unsigned all) { return std::getenv("LONG") ? all : all / 5; }
+inline unsigned of_many(unsigned all) { return std::getenv("LONG") ? all : (all + 9) / 10; }
 
-/// Of cases that loops make, whether this one is taken: one of five, in turn.
+/// Of cases that loops make, whether this one is taken: one of ten, in turn.
 class InTurn {
  public:
-  bool operator()() { return n_++ % 5 == 0 || std::getenv("LONG"); }
+  bool operator()() { return n_++ % 10 == 0 || std::getenv("LONG"); }
 
  private:
   unsigned n_ = 0;

@@ -184,9 +184,8 @@ TEST_CASE("trajectory: two directions tell the slope from the law, one does not"
     options.fit_slope = true;
     CHECK_THROWS_AS(fit(Route::shift, {plain}, options), Error);
   }
-  const unsigned least = pairs == 200 ? 179 : 33;  // fewer at 95 % by chance in 0.05 %
-  CHECK(covered_a >= least);
-  CHECK(covered_S >= least);
+  CHECK(covered_a >= at_least(pairs, 0.95));
+  CHECK(covered_S >= at_least(pairs, 0.95));
   CHECK(uncertain <= 2);
   CHECK(covered_a + covered_S < 2 * pairs);
 }
