@@ -56,26 +56,23 @@ ended='set -m
   sleep 0.2
   for _ in 1 2 3 4 5 6 7 8; do kill -TERM -- -$script 2>/dev/null; sleep 0.001; done
   wait $script'
-# faults SCRIPT OPERAND...: each of them; in a script that writes to its scratch alone one of them, in
-# turn, and each with LONG=1.
+# faults SCRIPT OPERAND...: one of them, in turn; each with LONG=1.
 turn=0
 faults() {
   turn=$(((turn + 1) % 3))
-  [ $turn != 0 ] && few || attempt 'no TMPDIR' env TMPDIR=/nonexistent "$@"
-  [ $turn != 1 ] && few || attempt 'ended in the middle' bash -c "$ended" ended "$@"
-  [ ! "$mounts" ] || { [ $turn != 2 ] && few; } || attempt 'full TMPDIR' env TMPDIR="$scratch/full" "$@"
+  in_turn 0 && attempt 'no TMPDIR' env TMPDIR=/nonexistent "$@"
+  in_turn 1 && attempt 'ended in the middle' bash -c "$ended" ended "$@"
+  in_turn 2 && [ "$mounts" ] && attempt 'full TMPDIR' env TMPDIR="$scratch/full" "$@"
 }
-few() { [ -z "${LONG-}" ] && [ ! "$writes" ]; }
-writes=''
+in_turn() { [ "$turn" = "$1" ] || [ -n "${LONG-}" ]; }
 # makes SCRIPT OPERAND...: the same of a script that writes to $made, where the same stands before.
 makes() {
   rm -rf "${made:?}"/* "$made.before"
   attempt 'no fault' "$@"
   [ "$(ls -A "$made")" ] || complain "makes nothing: $* $(cat "$scratch/out")"
   cp -R "$made" "$made.before"
-  writes=yes
+  turn=0  # it is ended in the middle
   faults "$@"
-  writes=''
   unharmed "$made" "$@"
   [ "$mounts" ] || return 0
   mount -t tmpfs -o size=64m none "$made" && cp -R "$made.before/." "$made" &&
@@ -83,9 +80,11 @@ makes() {
   attempt 'full disk' "$@"
   [ $status != 0 ] || complain "full disk: exit 0: $*"
   unharmed "$made" "a full disk: $*"
-  mount -o remount,ro "$made" || exit 2
-  attempt 'read only' "$@"
-  [ $status != 0 ] || complain "read only: exit 0: $*"
+  if [ -n "${LONG-}" ]; then
+    mount -o remount,ro "$made" || exit 2
+    attempt 'read only' "$@"
+    [ $status != 0 ] || complain "read only: exit 0: $*"
+  fi
   umount "$made"
 }
 mounts=${mounts-}
