@@ -157,8 +157,8 @@ void require_roll(const Fitted& found) {
       fail("{}no reading comes near the fixed v0, {:.3g} m/s", run.place, found.v0[r].value);
     if (too_fast)
       fail<ReadingOff>(
-          "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, probably does not "
-          "belong to the roll",
+          "{}no reading comes near v0 = {:.3g} m/s: the first one, at t = {} s, does not belong to "
+          "the roll, or too few do",
           run.place, found.v0[r].value, run.origin);
     if (roll.radius_time(last) < last && roll.radius_speed() > rest * v0)
       fail(
