@@ -251,8 +251,7 @@ bench: all build/bench/speed build/unit
 	@PATH="$$PWD/bin:$$PATH" $(call short,: )tests/bench/profile.sh
 	build/unit '[time]'
 
-# Static analysis; .clang-tidy says what is checked. calls.sh: no function is without a
-# tool that calls it.
+# Static analysis: .clang-tidy says what is checked. calls.sh looks for loops and for what nothing calls.
 lint:
 	clang-format-14 --dry-run --Werror $$(find lib cmd tests -name '*.cpp' -o -name '*.h')
 	mandoc -Tlint -Wwarning man/*
