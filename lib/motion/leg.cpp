@@ -12,7 +12,7 @@ namespace rolling {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double of_last_terms = 1e-14;  // the tolerance of a series; its integral has less
+constexpr double series_tolerance = 1e-14;  // of its last terms; the integral has less
 constexpr double narrowest = 2e-15;
 constexpr double unseen = 1e-17;      // what is left of a sum below it does not show in a double
 constexpr double slowest = 1e-290;    // speeds below it, as a part of v0, count as 0
@@ -206,7 +206,7 @@ std::pair<bool, double> Leg::try_panel(double width, bool to_radius) {
     if (c * scale > least_part * rates.largest(i < 2 ? i : 0))
       largest = std::max(largest, rates.last(i) / scale);
   }
-  const double allowed = of_last_terms + 4 * eps * noise;
+  const double allowed = series_tolerance + 4 * eps * noise;
   // Terms that are rounding alone do not tell how much longer the panel might be.
   const double factor = largest <= 4 * eps * noise
                             ? 3
